@@ -1,0 +1,40 @@
+include(GNUInstallDirs)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+find_program(LIGHTWELL_CCACHE ccache)
+if(LIGHTWELL_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${LIGHTWELL_CCACHE})
+endif()
+
+# What every target is compiled with. -ffp-contract=off: the same bits whether or not the processor can fuse a
+# multiply and an add; -fno-math-errno, -fno-trapping-math: let the square root be one instruction.
+add_library(lightwell_flags INTERFACE)
+target_compile_options(lightwell_flags INTERFACE
+    -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math)
+if(LIGHTWELL_SANITIZE)
+    target_compile_options(lightwell_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all)
+    target_link_options(lightwell_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# lightwell_library(NAME SOURCES file... USES folder-target... HIDES package-target...)
+#   USES   the folders whose headers this one includes; tests/structure holds the includes to it
+#   HIDES  outside packages; they are linked privately and appear in no header of the folder
+function(lightwell_library name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;USES;HIDES" ${ARGN})
+    list(TRANSFORM ARG_USES PREPEND lightwell_)
+    if(ARG_SOURCES)
+        add_library(lightwell_${name} STATIC ${ARG_SOURCES})
+        target_include_directories(lightwell_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+        target_link_libraries(lightwell_${name} PUBLIC ${ARG_USES} PRIVATE lightwell_flags ${ARG_HIDES})
+    else() # headers only
+        add_library(lightwell_${name} INTERFACE)
+        target_include_directories(lightwell_${name} INTERFACE ${PROJECT_SOURCE_DIR})
+        target_link_libraries(lightwell_${name} INTERFACE ${ARG_USES})
+    endif()
+endfunction()

@@ -1,0 +1,15 @@
+# Every outside package, found once. Each is hidden by the one folder named beside it.
+find_package(Threads REQUIRED)
+find_package(TBB REQUIRED)                 # engine/base
+find_package(embree 3.13 REQUIRED)         # engine/accel
+find_package(Imath REQUIRED)
+find_package(OpenEXR REQUIRED)             # engine/pictures
+find_package(PNG REQUIRED)                 # engine/pictures
+find_package(JPEG REQUIRED)                # importers/gltf
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tomlplusplus REQUIRED)        # importers, plugins
+find_package(CLI11 REQUIRED)               # plugins/cli
+find_package(draco REQUIRED)               # importers/gltf
+find_package(meshoptimizer REQUIRED)       # importers/gltf
+find_package(TinyGLTF REQUIRED)            # importers/gltf

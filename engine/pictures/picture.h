@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lightwell {
+
+/// A picture of named float channels, row 0 at the top. Colour channels "R", "G", "B" in the engine's primaries are
+/// radiance in W/(m^2 sr); "illuminance.Y" lx, "Z" m along the view ray, "N.X" "N.Y" "N.Z", "error.R/G/B/Y"
+/// standard errors in the unit of what they belong to.
+struct Picture {
+    int width = 0, height = 0;
+    std::map<std::string, std::vector<float>> channels; ///< each width * height values
+    std::map<std::string, std::string> header;          ///< VIEW, settings, provenance: text attributes
+
+    float at(const std::string& channel, int x, int y) const
+    {
+        return channels.at(channel)[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                    static_cast<std::size_t>(x)];
+    }
+    std::vector<float>& add_channel(const std::string& name)
+    {
+        return channels.try_emplace(name, static_cast<std::size_t>(width) * static_cast<std::size_t>(height)).first->second;
+    }
+};
+
+} // namespace lightwell

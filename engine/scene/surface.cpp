@@ -1,0 +1,4 @@
+#include "engine/scene/surface.h"
+
+namespace lightwell {
+}

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "engine/base/vector.h"
+
+namespace lightwell {
+
+/// A moment at a place. Source of the conventions: DESIGN of time as ISO 8601, longitude positive to the east.
+struct PlaceAndTime {
+    double latitude_deg = 0;  ///< north positive
+    double longitude_deg = 0; ///< east positive
+    double utc_offset_h = 0;
+    int year = 2024, month = 6, day = 21;
+    double hour = 12; ///< local clock time by utc_offset_h, [0, 24)
+};
+
+struct SunPosition {
+    double altitude_deg; ///< above the horizon, without refraction
+    double azimuth_deg;  ///< clockwise from north
+};
+
+/// Error: 0.01 degrees from 1950 to 2050 (tests/unit/sky).
+SunPosition sun_position(const PlaceAndTime& when);
+/// x east, y north, z up, turned so that the model's north points to north_deg counter-clockwise from +y.
+Direction sun_direction(const SunPosition& sun, double north_deg = 0);
+
+enum class CieSky { clear, intermediate, overcast, uniform };
+
+/// The arguments of the sky's brightness function and the sun that goes with it.
+/// Source  CIE standard clear, intermediate (Matsuura) and overcast skies with the zenith luminances of gensky
+struct SkyModel {
+    CieSky kind = CieSky::overcast;
+    bool with_sun = false;
+    Direction to_sun{0, 0, 1};
+    double sun_radiance = 0;  ///< W/(m^2 sr) of a disc of 0.533 degrees
+    double zenith = 0;        ///< W/(m^2 sr)
+    double ground = 0;        ///< W/(m^2 sr)
+    double normalization = 1;
+};
+inline constexpr double sun_full_angle_deg = 0.533;
+
+struct SkyOptions {
+    CieSky kind = CieSky::clear;
+    bool with_sun = true;
+    double turbidity = 2.45;
+    double ground_reflectance = 0.2;
+};
+/// Absolute luminance from the sun's altitude.
+SkyModel make_sky(const SkyOptions& options, const Direction& to_sun);
+
+/// Radiance of the sky (z >= 0) or the ground in a direction, W/(m^2 sr), without the sun's disc; as skybright.cal:
+/// sky and ground blend over the horizon.
+/// @param kind  1 clear, 2 overcast, 3 uniform, 4 intermediate
+double sky_brightness(int kind, double zenith, double ground, double normalization, const Direction& to_sun,
+                      const Direction& direction) noexcept;
+
+} // namespace lightwell

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "engine/base/report.h"
+#include "engine/base/spectrum.h"
+#include "engine/scene/scene.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace lightwell {
+
+/// What a layer map can ask about a surface. Surfaces with equal keys share one modifier of the imported scene.
+struct SurfaceKey {
+    std::string layer;    ///< what the user knows as the layer (see each importer's README); never empty
+    std::string group;    ///< OBJ group, glTF node path
+    std::string block;    ///< DXF block, glTF mesh; empty outside blocks
+    std::string material; ///< the file's material name
+    std::string entity;   ///< DXF entity type, "mesh", "face"
+    std::optional<Spectrum> colour; ///< the file's colour, linear Rec.709
+};
+
+/// A file read into surfaces, before materials are chosen.
+struct Imported {
+    Scene scene;                  ///< metres, z up
+    std::vector<SurfaceKey> keys; ///< keys[i] belongs to scene.modifiers[i], an Alias without target (or Inherited)
+    /// Materials that the file itself describes (MTL, glTF), by the file's name, to be used when no rule matches.
+    std::vector<std::pair<std::string, Material>> file_materials;
+    std::string unit;             ///< as reported: "mm (from $INSUNITS)", "m (glTF)", ...
+    Ledger ledger;                ///< entities read = made + skipped
+    Report report;
+};
+
+/// How to read what a file does not say.
+struct ImportOptions {
+    std::optional<double> metres_per_unit; ///< overrides what the file says
+    std::string up;                        ///< "", "y" or "z": overrides the format's rule
+    double chord_tolerance_m = 0.0005;     ///< for curves that have no exact surface (ellipses, arcs bent into walls)
+};
+
+/// Collects keys: one modifier for each distinct key.
+class KeyTable {
+public:
+    explicit KeyTable(Imported& imported) : imported_(imported) {}
+    ModifierId modifier_for(const SurfaceKey& key);
+    /// The place-holder that prototypes use for what instances decide, e.g. DXF layer 0 inside a block.
+    ModifierId inherited(const SurfaceKey& key);
+
+private:
+    ModifierId find_or_add(const SurfaceKey& key, bool inherited);
+    Imported& imported_;
+    std::unordered_map<std::string, ModifierId> known_;
+};
+
+/// True when the content (not only the name) looks like the importer's format.
+bool recognize_dxf(const std::filesystem::path& file);
+bool recognize_obj(const std::filesystem::path& file);
+bool recognize_gltf(const std::filesystem::path& file);
+
+/// @throws InputError: unreadable, truncated or malformed beyond use
+Imported import_dxf(const std::filesystem::path& file, const ImportOptions& options);
+Imported import_obj(const std::filesystem::path& file, const ImportOptions& options);
+Imported import_gltf(const std::filesystem::path& file, const ImportOptions& options);
+
+/// Chooses the importer by content.
+/// @throws InputError that lists the formats when none recognises the file
+Imported import_file(const std::filesystem::path& file, const ImportOptions& options = {});
+
+} // namespace lightwell
