@@ -65,8 +65,4 @@ Imported import_dxf(const std::filesystem::path& file, const ImportOptions& opti
 Imported import_obj(const std::filesystem::path& file, const ImportOptions& options);
 Imported import_gltf(const std::filesystem::path& file, const ImportOptions& options);
 
-/// Chooses the importer by content.
-/// @throws InputError that lists the formats when none recognises the file
-Imported import_file(const std::filesystem::path& file, const ImportOptions& options = {});
-
 } // namespace lightwell

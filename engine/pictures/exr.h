@@ -1,0 +1,40 @@
+#pragma once
+
+#include "engine/pictures/picture.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace lightwell {
+
+/// Tiled FLOAT channels, ZIP; header entries as text attributes, chromaticities and whiteLuminance of the engine.
+/// @throws InputError when the file cannot be written; the final name never holds half a file
+void write_exr(const Picture& picture, const std::filesystem::path& file);
+/// @throws InputError: missing, truncated, not an OpenEXR file, no float or half channels, absurd size
+Picture read_exr(const std::filesystem::path& file);
+
+/// A picture that grows tile by tile as NAME.partial.exr and becomes NAME when complete. A killed run leaves a file
+/// that opens; constructing it again with the same header takes over the tiles that can be read.
+class GrowingPicture {
+public:
+    /// @param layout  size, channel names (contents unused) and header; header "settings" must agree to resume
+    GrowingPicture(std::filesystem::path file, const Picture& layout, int tile_size);
+    ~GrowingPicture();
+    GrowingPicture(const GrowingPicture&) = delete;
+    GrowingPicture& operator=(const GrowingPicture&) = delete;
+
+    std::size_t resumed_tiles() const noexcept;
+    /// The tile at pixel (x, y) when an earlier run finished it.
+    std::optional<Picture> stored(int x, int y) const;
+    /// Thread-safe.
+    void put(int x, int y, const Picture& tile);
+    /// Writes `complete` (all pixels, final header) under the final name and removes the partial file.
+    void finish(const Picture& complete);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lightwell

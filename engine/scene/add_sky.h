@@ -1,0 +1,12 @@
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "engine/sky/sky.h"
+
+namespace lightwell {
+
+/// Adds the sky as the scene language has it: sun (`solar`, `sun`), brightness function `skyfunc`, and two distant
+/// glows of 180 degrees, `sky` upwards and `ground` downwards.
+void add_sky(Scene& scene, const SkyModel& sky);
+
+} // namespace lightwell
