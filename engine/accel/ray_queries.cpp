@@ -426,8 +426,7 @@ void run(const PartQueries& queries, Level& level)
 
 Level make_level(const PartQueries& queries, Trace& trace, const Point& origin, const Vec3& direction)
 {
-    return {{},      &queries, &trace,  origin, direction, RayFrame(origin, direction), 1, 0,
-            nullptr, nullptr,  nullptr, 0,      1};
+    return {{}, &queries, &trace, origin, direction, RayFrame(origin, direction), 1, 0, nullptr, nullptr, 0, 1};
 }
 
 void descend(const Level& outer, std::uint32_t surface)
