@@ -10,8 +10,27 @@ constexpr double before_lamp = 1 - 1e-9;
 /// Half of the sky's rays aim at windows where there are windows: indoors that is where the sky is, outdoors the
 /// other half finds it.
 constexpr double share_of_portals = 0.5;
+/// A way of finding a source that is this much less likely than the other adds only noise.
+constexpr double hopeless = 1e-3;
+
+Ray shadow_ray(const Hit& from, const SourceSample& sample)
+{
+    const Point start = from.leave(sample.to_light);
+    if (std::isinf(sample.distance_m))
+        return {start, sample.to_light, infinity};
+    return {start, from.position + sample.to_light * sample.distance_m - start, before_lamp};
+}
 
 } // namespace
+
+double shadow_ray_weight(double shadow_density, double scattered_density) noexcept
+{
+    if (scattered_density < hopeless * shadow_density)
+        return 1;
+    if (shadow_density < hopeless * scattered_density)
+        return 0;
+    return shadow_density / (shadow_density + scattered_density);
+}
 
 void DirectLight::add(const Vertex& vertex, const SourceSample& sample, double density_per_sr, bool found_by_scattering,
                       Gathered& sum) const
@@ -24,12 +43,12 @@ void DirectLight::add(const Vertex& vertex, const SourceSample& sample, double d
     const Spectrum value = vertex.bsdf.value_per_sr(vertex.to_viewer, local);
     if (local.z <= 0 && value.is_black())
         return;
-    const Ray ray{vertex.hit.leave(sample.to_light), sample.to_light, sample.distance_m * before_lamp};
-    const Spectrum seen = rays_.transmittance(ray);
+    const Spectrum seen = rays_.transmittance(shadow_ray(vertex.hit, sample));
     if (seen.is_black())
         return;
     const double scattered = found_by_scattering ? vertex.bsdf.density_per_sr(vertex.to_viewer, local) : 0;
-    const Spectrum light = sample.radiance * seen * (std::fabs(local.z) / (density_per_sr + scattered));
+    const double weight = shadow_ray_weight(density_per_sr, scattered);
+    const Spectrum light = sample.radiance * seen * (weight * std::fabs(local.z) / density_per_sr);
     sum.radiance += light * value;
     if (local.z > 0)
         sum.irradiance += light;

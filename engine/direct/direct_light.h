@@ -40,9 +40,13 @@ struct Gathered {
     Spectrum irradiance; ///< W/m^2, on the viewer's side
 };
 
+/// Share of a source's light that shadow rays answer for; scattered rays that meet the source answer for the rest.
+/// Source  Veach 1997, balance heuristic with cutoff
+double shadow_ray_weight(double shadow_density, double scattered_density) noexcept;
+
 /// Light straight from the sources, by shadow rays.
-/// Error: unbiased together with scattered rays weighed by scattered_weight_*().
-/// Source  Ward 1994, Section 3.1 (direct component); Veach 1997, multiple importance sampling (balance heuristic)
+/// Error: unbiased together with scattered rays that carry 1 - shadow_ray_weight().
+/// Source  Ward 1994, Section 3.1 (direct component)
 class DirectLight {
 public:
     DirectLight(const SourceList& sources, const RayQueries& rays) : sources_(sources), rays_(rays) {}

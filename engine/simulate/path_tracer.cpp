@@ -39,7 +39,7 @@ struct PathTracer::Walk {
     /// Weight of a source met by a scattered ray against shadow rays of this density.
     double weight(double shadow_density) const
     {
-        return no_shadow_rays ? 1 : scattered_density / (scattered_density + shadow_density);
+        return no_shadow_rays ? 1 : 1 - shadow_ray_weight(shadow_density, scattered_density);
     }
 };
 

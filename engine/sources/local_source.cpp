@@ -58,7 +58,7 @@ struct FlatChoice {
 /// Chooses among triangles by solid angle.
 FlatChoice choose(const FlatEmitter& e, const Point& from, double u)
 {
-    double parts[most_spherical_triangles], total = 0;
+    double parts[most_spherical_triangles] = {}, total = 0;
     const std::size_t count = e.summed_area.size();
     for (std::size_t i = 0; i < count; ++i)
         total += parts[i] = seen_triangle(e, i, from).solid_angle_sr();
