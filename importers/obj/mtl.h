@@ -16,11 +16,11 @@ struct MtlMaterial {
     std::string name;
     std::size_t line = 0;
     std::optional<Spectrum> diffuse, specular, emission, filter; ///< Kd, Ks, Ke, Tf: linear Rec.709
-    std::optional<double> exponent;  ///< Ns
-    std::optional<double> index;     ///< Ni
-    std::optional<double> dissolve;  ///< d, or 1 - Tr: 1 is opaque
-    std::optional<double> roughness; ///< Pr
-    std::optional<double> metallic;  ///< Pm
+    std::optional<double> exponent;                              ///< Ns
+    std::optional<double> index;                                 ///< Ni
+    std::optional<double> dissolve;                              ///< d, or 1 - Tr: 1 is opaque
+    std::optional<double> roughness;                             ///< Pr
+    std::optional<double> metallic;                              ///< Pm
     std::optional<int> illum;
 };
 

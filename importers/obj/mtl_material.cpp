@@ -28,7 +28,8 @@ Spectrum within_unit(Spectrum colour, const std::string& what, const std::string
 Spectrum unit_colour(const std::optional<Spectrum>& rec709, const std::string& what, const std::string& place,
                      Report& report)
 {
-    return rec709 ? within_unit(from_rec709(within_unit(*rec709, what, place, report)), what, place, report) : Spectrum{};
+    return rec709 ? within_unit(from_rec709(within_unit(*rec709, what, place, report)), what, place, report)
+                  : Spectrum{};
 }
 
 /// Rms slope of the facets: Pr squared (the usual perceptual scale), or the slope of Beckmann facets whose lobe is
@@ -71,8 +72,8 @@ Material glass_of(const MtlMaterial& mtl, const std::string& place, Report& repo
     const bool filtered = mtl.filter && mtl.filter->max() > 0;
     const Spectrum transmissivity = filtered ? unit_colour(mtl.filter, "Tf", place, report) : Spectrum::grey(through);
     report.add(Finding::approximated, place,
-               std::string("transparent material becomes thin glass; ") +
-                   (filtered ? "Tf" : "1 - d") + " is what one passage through the pane leaves");
+               std::string("transparent material becomes thin glass; ") + (filtered ? "Tf" : "1 - d") +
+                   " is what one passage through the pane leaves");
     const double index = mtl.index.value_or(assumed_glass_index);
     return Glass{transmissivity, index > 1 && index < 4 ? index : assumed_glass_index};
 }
@@ -81,7 +82,8 @@ Material metal_of(const MtlMaterial& mtl, const std::string& place, Report& repo
 {
     if (mtl.metallic.value_or(0) >= 0.5)
         return Metal{unit_colour(mtl.diffuse, "Kd", place, report), std::min(1.0, *mtl.metallic), roughness_of(mtl)};
-    return Metal{unit_colour(mtl.specular, "Ks", place, report), 1, mtl.exponent || mtl.roughness ? roughness_of(mtl) : 0};
+    return Metal{unit_colour(mtl.specular, "Ks", place, report), 1,
+                 mtl.exponent || mtl.roughness ? roughness_of(mtl) : 0};
 }
 
 /// Kd is kept, since it decides how much light a room has; the highlight gets at most what is left.
@@ -95,7 +97,8 @@ Material plastic_of(const MtlMaterial& mtl, const std::string& place, Report& re
     double specularity = specularity_of(mtl, place, report);
     if (diffuse.max() + specularity > 1) {
         specularity = 1 - diffuse.max();
-        report.add(Finding::repaired, place, "Kd and highlight together reflect more than arrives; the highlight is weakened");
+        report.add(Finding::repaired, place,
+                   "Kd and highlight together reflect more than arrives; the highlight is weakened");
     }
     if (specularity <= 0)
         return Plastic{diffuse, 0, 0};

@@ -56,7 +56,8 @@ struct ObjFile {
     std::string unit;                   ///< of a comment such as `# unit: mm`; empty when there is none
     std::string up;                     ///< of a comment such as `# up: z`
     std::string written_by;             ///< "FreeCAD" or empty: a program whose habit is known
-    Ledger ledger;                      ///< what was skipped while reading
+    std::size_t unknown_statements = 0;
+    Ledger ledger; ///< what was skipped while reading
     Report report;
 };
 

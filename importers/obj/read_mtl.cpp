@@ -7,6 +7,11 @@
 namespace lightwell {
 namespace {
 
+std::string quoted(std::string_view word)
+{
+    return std::string("`").append(word.substr(0, 20)).append("`");
+}
+
 /// Reads the statements of one library in order.
 class MtlReader {
 public:
@@ -79,8 +84,8 @@ void MtlReader::statement(std::string_view word, std::string_view rest)
             material.illum = static_cast<int>(*model);
     } else if (word.substr(0, 4) == "map_" || word == "refl" || word == "bump" || word == "disp" || word == "decal" ||
                word == "norm") {
-        note(Finding::unsupported, "texture `" + std::string(word.substr(0, 20)) +
-                                       "` is not modelled yet; the plain value beside it is used");
+        note(Finding::unsupported,
+             "texture " + quoted(word) + " is not modelled yet; the plain value beside it is used");
     }
 }
 
@@ -92,7 +97,7 @@ std::optional<double> MtlReader::number(std::string_view word, std::string_view 
     const std::optional<double> value = parse_double(token);
     if (value && std::isfinite(*value))
         return value;
-    note(Finding::ignored, "`" + std::string(word) + "` is not a number; the material does without it");
+    note(Finding::ignored, quoted(word) + " is not a number; the material does without it");
     return {};
 }
 
@@ -103,14 +108,14 @@ std::optional<Spectrum> MtlReader::colour(std::string_view word, std::string_vie
     if (!r || !std::isfinite(*r)) {
         const bool known = trimmed(whole).substr(0, 8) == "spectral" || trimmed(whole).substr(0, 3) == "xyz";
         note(known ? Finding::unsupported : Finding::ignored,
-             "`" + std::string(word) + "` is not three numbers; the material does without it");
+             quoted(word) + " is not three numbers; the material does without it");
         return {};
     }
     const std::optional<double> g = parse_double(next_word(rest)), b = parse_double(next_word(rest));
     const Spectrum found{*r, g.value_or(*r), b.value_or(g.value_or(*r))}; // one number stands for all three
     if (found.is_finite())
         return found;
-    note(Finding::ignored, "`" + std::string(word) + "` is not finite; the material does without it");
+    note(Finding::ignored, quoted(word) + " is not finite; the material does without it");
     return {};
 }
 

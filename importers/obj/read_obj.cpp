@@ -13,7 +13,8 @@
 namespace lightwell {
 namespace {
 
-/// Comments about unit and axis stand at the top of a file; later ones (one for each of a million groups) are not looked at.
+/// Comments about unit and axis stand at the top of a file; later ones (one for each of a million groups) are not
+/// looked at.
 constexpr std::size_t header_lines = 200;
 /// Indices are 32-bit; 2^31 - 1 vertices would be a text of more than 12 GB.
 constexpr std::size_t most_elements = std::numeric_limits<std::int32_t>::max();
@@ -90,6 +91,7 @@ ObjFile ObjReader::read()
                          "expected an OBJ file with `v` and `f` lines");
     check_faces();
     write_notes();
+    file_.unknown_statements = unknown_.count;
     return std::move(file_);
 }
 
@@ -124,10 +126,10 @@ void ObjReader::statement(std::string_view word, std::string_view rest)
 /// What has no area or no meaning for light.  @return false when the format has no such statement
 bool ObjReader::rare_statement(std::string_view word, std::string_view rest)
 {
-    static constexpr std::string_view quiet[] = {"cstype", "deg", "bmat", "step", "parm", "trim", "hole", "scrv",
-                                                 "sp", "end", "con", "vp", "mg", "bevel", "c_interp", "d_interp",
-                                                 "lod", "shadow_obj", "trace_obj", "ctech", "stech", "usemap",
-                                                 "maplib", "vw"};
+    static constexpr std::string_view quiet[] = {"cstype",    "deg",   "bmat",     "step",     "parm",   "trim",
+                                                 "hole",      "scrv",  "sp",       "end",      "con",    "vp",
+                                                 "mg",        "bevel", "c_interp", "d_interp", "lod",    "shadow_obj",
+                                                 "trace_obj", "ctech", "stech",    "usemap",   "maplib", "vw"};
     const std::string layer = layer_of(state_);
     if (word == "mtllib") {
         file_.libraries.push_back(to_utf8(name_in(rest)));
