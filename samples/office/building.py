@@ -1,5 +1,5 @@
 """The office building: 24 m x 12 m, two storeys of 3.5 m. Millimetres; x east, y north, z up, ground floor at 0."""
-from shapes import Bent, Block, Outline, Strip, length, scaled, sub
+from shapes import Band, Bent, Block, Strip, length, scaled, sub
 import furniture
 
 LONG, DEEP, WALL = 24000, 12000, 300
@@ -189,20 +189,16 @@ STAIR_Y = (9900, 11300)
 
 
 def stairs(block):
-    profile = [(14160, 0), (STAIR_FOOT, 0)]
-    treads = []
-    for i in range(STEPS - 1):
-        x, z = STAIR_FOOT - GOING * i, RISE * (i + 1)
-        profile += [(x, z), (x - GOING, z)]
-        treads.append((x, z))
-    profile.append((OPENING[0], 2975))  # the underside runs parallel to the treads
     y0, y1 = STAIR_Y
-    block.records.append(Outline("A-FLOR-STRS", tuple((x, y0, z) for x, z in profile)))
-    block.records.append(Outline("A-FLOR-STRS", tuple((x, y1, z) for x, z in reversed(profile))))
-    for x, z in treads:
-        block.face("A-FLOR-STRS", (x, y0, z - RISE), (x, y1, z - RISE), (x, y1, z), (x, y0, z))
-        block.face("A-FLOR-STRS", (x - GOING, y0, z), (x, y0, z), (x, y1, z), (x - GOING, y1, z))
-    block.face("A-FLOR-STRS", (14160, y0, 0), (OPENING[0], y0, 2975), (OPENING[0], y1, 2975), (14160, y1, 0))
+    for i in range(STEPS - 1):
+        east, west, z = STAIR_FOOT - GOING * i, STAIR_FOOT - GOING * (i + 1), RISE * (i + 1)
+        under_east, under_west = max(0, RISE * (i - 2)), max(0, RISE * (i - 1))  # runs parallel to the treads
+        block.face("A-FLOR-STRS", (east, y0, z - RISE), (east, y1, z - RISE), (east, y1, z), (east, y0, z))
+        block.face("A-FLOR-STRS", (west, y0, z), (east, y0, z), (east, y1, z), (west, y1, z))
+        block.face("A-FLOR-STRS", (west, y0, under_west), (east, y0, under_east), (east, y0, z), (west, y0, z))
+        block.face("A-FLOR-STRS", (east, y1, under_east), (west, y1, under_west), (west, y1, z), (east, y1, z))
+    block.face("A-FLOR-STRS", (STAIR_FOOT - 2 * GOING, y0, 0), (STAIR_FOOT - 2 * GOING, y1, 0),
+               (OPENING[0], y1, RISE * (STEPS - 3)), (OPENING[0], y0, RISE * (STEPS - 3)))
 
 
 def rail(block, start, end, radius):
@@ -234,20 +230,13 @@ def columns(block):
             block.cylinder("S-COLS", (x, 7400, level - 20), UP, 200, CEILING + 40)
 
 
-def ring_sector(inner, outer):
-    """Half a ring, open to the west: two arcs and two straight ends."""
-    return [(0, -outer, 1), (0, outer, 0), (0, inner, -1), (0, -inner, 0)]
-
-
 def reception(block):
-    """A counter bent around its centre: bands with bulges, and a plate of lines and arcs."""
+    """A counter bent around its centre, open to the west: a body of lines and arcs, and a plate on it."""
     desk = Block("RECEPTION")
-    desk.records.append(Bent("0", ring_sector(1550, 2050), 1, 1057))
-    desk.records.append(Bent("0", ring_sector(1480, 2120), 1060, 40))
-    desk.records.append(Bent("0", ring_sector(1480, 2120), 1060, 0))
-    desk.records.append(Bent("0", ring_sector(1480, 2120), 1100, 0))
+    desk.records.append(Bent("0", [(0, -2050, 1), (0, 2050, 0), (0, 1550, -1), (0, -1550, 0)], 1, 1057))
+    desk.records.append(Band("0", (0, -1800), (0, 1800), 1, 640, 1060, 40))
     block.insert("I-FURN-RECP", desk, (9300, 5250, 0))
-    block.cylinder("I-FURN-RUG", (13980, 6300, 5), UP, 1300, 0)
+    block.cylinder("I-FURN-RUG", (13980, 6300, 1), UP, 1300, 4)
 
 
 def furnish_ground(block, parts):
@@ -256,13 +245,13 @@ def furnish_ground(block, parts):
     for y in (3600, 9400):
         meeting(block, parts, 4080, y, 0)
     block.insert("I-FURN-CHAR", parts["task_chair"], (9700, 5250, 0), 260)
-    for x, y, turn in ((13980, 4700, 0), (13980, 7900, 180), (15350, 6300, 90)):
+    for x, y, turn in ((13980, 7900, 180), (15350, 6300, 90)):
         block.insert("I-FURN-SOFA", parts["sofa"], (x, y, 0), turn)
     block.insert("I-FURN", parts["round_table"], (13980, 6300, 5))
 
 
 def furnish_upper(block, parts):
-    for x, y, turn, mirrored in office_places([(x, 3300) for x in BAYS[:4]] + [(x, 7900) for x in BAYS[:2]]):
+    for x, y, turn, mirrored in office_places([(x, 3500) for x in BAYS[:4]] + [(x, 8000) for x in BAYS[:2]]):
         place_desk(block, parts, x, y, STOREY, turn, mirrored)
     for y in (3600, 9400):
         meeting(block, parts, 19920, y, STOREY)
@@ -304,8 +293,8 @@ def site(block):
     level_quad("L-SITE", block, -18000, -26000, 42000, 14000, -150, True)
     level_quad("L-SITE-PAVE", block, 12500, -26000, 15460, -1600, -140, True)
     block.box("L-SITE-PAVE", (11900, -1550, -160), (16060, -1, -10), omit="d")
-    trees = ((-5500, -9000, 0, (1, 1, 1)), (4200, -13500, 75, (1.3, 1.3, 1.3)), (21500, -10500, 140, (1, 1, 1.15)),
-             (30500, -6000, 205, (1.2, 1.2, 1.2)), (-9000, 2500, 270, (1.4, 1.4, 1.4)), (33500, 6500, 330, (-1.3, 1.3, 1.5)))
+    trees = ((-11800, -8800, 0, (1, 1, 1)), (3500, -12500, 75, (1.3, 1.3, 1.3)), (21500, -10500, 140, (1, 1, 1.15)),
+             (30500, -6000, 205, (1.2, 1.2, 1.2)), (-3800, 9500, 270, (1.4, 1.4, 1.4)), (33500, 6500, 330, (-1.3, 1.3, 1.5)))
     tree = furniture.tree()
     for x, y, turn, scale in trees:
         block.insert("L-PLNT-TREE", tree, (x, y, -150), turn, scale)
@@ -324,6 +313,9 @@ def annotation(block):
     for x0, x1 in zip([0, *BAYS], [*BAYS, LONG]):
         block.note("A-ANNO-DIMS", "DIMENSION", (x0, 0), (x1, 0), (x0, -2000), 0)
     block.note("A-ANNO-DIMS", "DIMENSION", (0, 0), (0, DEEP), (-2000, 0), 90)
+    for x0, x1, z in ((WALL, PARTITION_W - 50, 0), (PARTITION_W + 50, PARTITION_E, 0), (WALL, PARTITION_E, STOREY)):
+        block.note("A-ANNO-AREA", "LWPOLYLINE", [(x0, WALL), (x1, WALL), (x1, 6900), (x0, 6900)], z)
+    block.note("A-ANNO-SYMB", "CIRCLE", (-3000, -2250, 0), 750)
     block.note("A-ANNO-SYMB", "ARC", (8000, 1800, 0), 900, 0, 90)
     block.note("A-ANNO-SYMB", "ARC", (8000, 9400, 0), 900, 180, 270)
     for a, b in (((-3000, -3000), (-3000, -1500)), ((-3000, -1500), (-3200, -1900)), ((-3000, -1500), (-2800, -1900))):

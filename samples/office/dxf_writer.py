@@ -2,7 +2,7 @@
 import ezdxf
 from ezdxf.math import OCS, Vec3
 from layers import LAYERS
-from shapes import Bent, Cylinder, Face, Insert, Note, Outline, Polyface, Solid, Strip, area_vector, unit
+from shapes import Band, Bent, Cylinder, Face, Insert, Note, Polyface, Solid, Strip, area_vector, unit
 
 
 def write_dxf(model, blocks, file):
@@ -49,15 +49,15 @@ def write_solid(layout, record, attributes):
     layout.add_solid((a, b, d, c), dxfattribs={**attributes, "extrusion": normal})
 
 
-def write_outline(layout, record, attributes):
-    normal, elevation, points = flat_points(record.corners)
-    layout.add_lwpolyline(points, format="xy", close=True,
-                          dxfattribs={**attributes, "extrusion": normal, "elevation": elevation})
-
-
 def write_bent(layout, record, attributes):
     layout.add_lwpolyline(record.points, format="xyb", close=True,
                           dxfattribs={**attributes, "elevation": record.elevation, "thickness": record.thickness})
+
+
+def write_band(layout, record, attributes):
+    points = [(*record.start, record.bulge), (*record.end, 0)]
+    layout.add_lwpolyline(points, format="xyb", dxfattribs={
+        **attributes, "elevation": record.elevation, "thickness": record.thickness, "const_width": record.width})
 
 
 def write_polyface(layout, record, attributes):
@@ -73,8 +73,7 @@ def write_strip(layout, record, attributes):
 def write_cylinder(layout, record, attributes):
     normal = Vec3(record.axis)
     attributes = {**attributes, "extrusion": normal}
-    if record.length:
-        attributes["thickness"] = record.length
+    attributes["thickness"] = record.length
     layout.add_circle(OCS(normal).from_wcs(Vec3(record.base)), record.radius, dxfattribs=attributes)
 
 
@@ -92,10 +91,15 @@ def write_note(layout, record, attributes):
         layout.add_line(*record.values, dxfattribs=attributes)
     elif record.kind == "ARC":
         layout.add_arc(*record.values, dxfattribs=attributes)
+    elif record.kind == "CIRCLE":
+        layout.add_circle(*record.values, dxfattribs=attributes)
+    elif record.kind == "LWPOLYLINE":
+        points, elevation = record.values
+        layout.add_lwpolyline(points, format="xy", close=True, dxfattribs={**attributes, "elevation": elevation})
     elif record.kind == "DIMENSION":
         begin, end, base, turn = record.values
         layout.add_linear_dim(base, begin, end, angle=turn, dimstyle="Standard", dxfattribs=attributes).render()
 
 
-WRITERS = {Face: write_face, Solid: write_solid, Outline: write_outline, Bent: write_bent, Polyface: write_polyface,
+WRITERS = {Face: write_face, Solid: write_solid, Bent: write_bent, Band: write_band, Polyface: write_polyface,
            Strip: write_strip, Cylinder: write_cylinder, Insert: write_insert, Note: write_note}

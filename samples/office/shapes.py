@@ -101,11 +101,6 @@ class Solid(Face):
 
 
 @dataclass
-class Outline(Face):
-    """A plane polygon with any number of corners (closed LWPOLYLINE)."""
-
-
-@dataclass
 class Polyface:
     """Corners shared by triangles and plane quadrilaterals."""
     layer: str
@@ -140,7 +135,7 @@ class Strip:
 
 @dataclass
 class Cylinder:
-    """A circle swept along its normal (CIRCLE with thickness): a side and two ends. Without length, a disc."""
+    """A circle swept along its normal (CIRCLE with thickness): a side and two ends."""
     layer: str
     base: tuple
     axis: tuple  # unit vector
@@ -155,8 +150,6 @@ class Cylinder:
             angle = 2 * math.pi * i / count
             ring.append(add(self.base, add(scaled(first, self.radius * math.cos(angle)),
                                            scaled(second, self.radius * math.sin(angle)))))
-        if self.length == 0:
-            return [tuple(ring)]
         top = [add(p, scaled(self.axis, self.length)) for p in ring]
         sides = [(ring[i - 1], ring[i], top[i], top[i - 1]) for i in range(count)]
         return sides + [tuple(reversed(ring)), tuple(top)]
@@ -167,7 +160,7 @@ class Cylinder:
         assert abs(length(u) - length(v)) < 1e-9 and abs(dot(u, along)) < 1e-9, "the circle must stay a circle"
         radius = self.radius * length(u)
         end = math.pi * radius * radius
-        return [2 * math.pi * radius * self.length * length(along), end, end] if self.length else [end]
+        return [2 * math.pi * radius * self.length * length(along), end, end]
 
     @property
     def facet_error(self):
@@ -177,9 +170,23 @@ class Cylinder:
 ARC_STEP = math.radians(5)  # of arcs in formats without curves
 
 
+def arc_points(a, b, bulge, aside=0):
+    """Points of a segment, both ends included; `aside` moves them to the right of the direction of travel."""
+    if bulge == 0:
+        along = unit((b[0] - a[0], b[1] - a[1], 0))
+        return [(p[0] + along[1] * aside, p[1] - along[0] * aside) for p in (a, b)]
+    centre, radius = arc_of(a, b, bulge)
+    angle = 4 * math.atan(bulge)
+    moved = radius + (aside if bulge > 0 else -aside)
+    begin = math.atan2(a[1] - centre[1], a[0] - centre[0])
+    steps = math.ceil(abs(angle) / ARC_STEP)
+    turns = [begin + angle * i / steps for i in range(steps + 1)]
+    return [(centre[0] + moved * math.cos(turn), centre[1] + moved * math.sin(turn)) for turn in turns]
+
+
 @dataclass
 class Bent:
-    """A closed outline of lines and arcs at one height; with a thickness the band around it (LWPOLYLINE, bulges)."""
+    """A closed line of straight pieces and arcs raised by a height: bands without lid or floor (LWPOLYLINE)."""
     layer: str
     points: list  # (x, y, bulge); bulge = tan(arc angle / 4) of the segment that begins here
     elevation: float
@@ -188,51 +195,73 @@ class Bent:
     def segments(self):
         return [(a[:2], b[:2], a[2]) for a, b in zip(self.points, self.points[1:] + self.points[:1])]
 
-    def _rim(self):
-        rim = []
-        for a, b, bulge in self.segments():
-            rim.append(a)
-            if bulge == 0:
-                continue
-            angle = 4 * math.atan(bulge)
-            centre, radius = arc_of(a, b, bulge)
-            begin = math.atan2(a[1] - centre[1], a[0] - centre[0])
-            steps = math.ceil(abs(angle) / ARC_STEP)
-            for i in range(1, steps):
-                turn = begin + angle * i / steps
-                rim.append((centre[0] + radius * math.cos(turn), centre[1] + radius * math.sin(turn)))
-        return rim
-
     def facets(self):
-        low = [(x, y, self.elevation) for x, y in self._rim()]
-        if self.thickness == 0:
-            return [tuple(low)]
-        high = [add(p, (0, 0, self.thickness)) for p in low]
-        return [(low[i - 1], low[i], high[i], high[i - 1]) for i in range(len(low))]
+        quads = []
+        for segment in self.segments():
+            points = arc_points(*segment)
+            quads += [wall_quad(p, q, self.elevation, self.thickness) for p, q in zip(points, points[1:])]
+        return quads
 
     def surfaces(self, place):
-        flat = length(cross(place.x, place.y))
-        if self.thickness == 0:
-            return [flat * self._enclosed_area()]
-        assert abs(length(place.x) - 1) < 1e-12 and abs(flat - 1) < 1e-12, "outlines are not scaled here"
+        assert_unscaled(place)
         return [self.thickness * arc_length(*segment) for segment in self.segments()]
-
-    def _enclosed_area(self):
-        total = 0.0
-        for a, b, bulge in self.segments():
-            total += 0.5 * (a[0] * b[1] - a[1] * b[0])
-            if bulge:
-                angle = 4 * math.atan(bulge)
-                radius = arc_of(a, b, bulge)[1]
-                total += 0.5 * radius * radius * (angle - math.sin(angle))
-        return abs(total)
 
     @property
     def facet_error(self):
-        return max(arc_of(a, b, bulge)[1] * (1 - math.cos(ARC_STEP / 2)) for a, b, bulge in self.segments() if bulge)
+        return self.largest_radius() * (1 - math.cos(ARC_STEP / 2))
+
+    def radii(self):
+        return [arc_of(a, b, bulge)[1] for a, b, bulge in self.segments() if bulge]
+
+    def largest_radius(self):
+        return max(self.radii())
 
     def smallest_radius(self):
-        return min(arc_of(a, b, bulge)[1] for a, b, bulge in self.segments() if bulge)
+        return min(self.radii())
+
+
+@dataclass
+class Band:
+    """An arc with a width and a height: a plate with two arcs and two straight ends (open LWPOLYLINE with width)."""
+    layer: str
+    start: tuple
+    end: tuple
+    bulge: float
+    width: float
+    elevation: float
+    thickness: float
+
+    def facets(self):
+        right = arc_points(self.start, self.end, self.bulge, self.width / 2)
+        left = arc_points(self.start, self.end, self.bulge, -self.width / 2)
+        rim = right + left[::-1]
+        quads = [wall_quad(rim[i - 1], rim[i], self.elevation, self.thickness) for i in range(len(rim))]
+        lid = tuple((x, y, self.elevation + self.thickness) for x, y in rim)
+        return quads + [lid, tuple((x, y, self.elevation) for x, y in reversed(rim))]
+
+    def surfaces(self, place):
+        assert_unscaled(place)
+        middle, angle = arc_length(self.start, self.end, self.bulge), 4 * math.atan(abs(self.bulge))
+        sides = [self.thickness * (middle + turn * angle * self.width / 2) for turn in (1, -1)]
+        return sides + [self.thickness * self.width] * 2 + [self.width * middle] * 2
+
+    @property
+    def facet_error(self):
+        return self.largest_radius() * (1 - math.cos(ARC_STEP / 2))
+
+    def largest_radius(self):
+        return arc_of(self.start, self.end, self.bulge)[1] + self.width / 2
+
+    def smallest_radius(self):
+        return arc_of(self.start, self.end, self.bulge)[1] - self.width / 2
+
+
+def wall_quad(p, q, elevation, height):
+    return ((*p, elevation), (*q, elevation), (*q, elevation + height), (*p, elevation + height))
+
+
+def assert_unscaled(place):
+    assert abs(length(place.x) - 1) < 1e-12 and abs(length(place.y) - 1) < 1e-12 and place.z == (0, 0, 1)
 
 
 def arc_of(a, b, bulge):
@@ -269,7 +298,7 @@ class Insert:
 
 @dataclass
 class Note:
-    """Annotation that has no surface: kind is LINE, TEXT, ARC or DIMENSION."""
+    """What has no surface: kind is LINE, TEXT, ARC, CIRCLE, LWPOLYLINE or DIMENSION."""
     layer: str
     kind: str
     values: tuple

@@ -1,9 +1,9 @@
 """What a reader must find in each file: counted and measured on the shapes, not on the files."""
 import math
-from shapes import Bent, Cylinder, Insert, Note, Polyface, Placement, add, expanded, perpendicular_pair, polygon_area, sub
+from shapes import Band, Bent, Cylinder, Insert, Note, add, expanded, perpendicular_pair
 
 MM2 = 1e-6  # m^2
-ENTITY = {"Face": "3DFACE", "Solid": "SOLID", "Outline": "LWPOLYLINE", "Bent": "LWPOLYLINE", "Polyface": "POLYLINE",
+ENTITY = {"Face": "3DFACE", "Solid": "SOLID", "Bent": "LWPOLYLINE", "Band": "LWPOLYLINE", "Polyface": "POLYLINE",
           "Strip": "LINE", "Cylinder": "CIRCLE", "Insert": "INSERT"}
 CHORD_TOLERANCE_MM = 0.5  # within which a reader may replace an arc by straight pieces
 
@@ -62,8 +62,8 @@ def exact_layers(model):
         areas = record.surfaces(place)
         entry["surfaces"] += len(areas)
         entry["area_m2"] += [area * MM2 for area in areas]
-        if isinstance(record, Bent):
-            # Arcs in straight pieces: a chord is shorter than its arc by the fraction sagitta / (3/2 radius) or so.
+        if isinstance(record, (Bent, Band)):
+            # Arcs in straight pieces lose at most 4/3 sagitta / outer radius of their area.
             bound = CHORD_TOLERANCE_MM / record.smallest_radius()
             entry["area_relative_tolerance"] = max(entry["area_relative_tolerance"], bound)
             entry["surfaces_depend_on_chords"] = True
@@ -81,13 +81,12 @@ def dxf_truth(model, blocks):
         "up": "z",
         "conventions": {
             "CIRCLE with thickness": "3 surfaces: side and two ends",
-            "CIRCLE without thickness": "1 surface: disc",
-            "closed LWPOLYLINE without thickness": "1 surface",
-            "closed LWPOLYLINE with thickness": "1 surface per segment, no ends; bulged segments may be cut in pieces",
+            "LWPOLYLINE with thickness": "1 surface per segment, no lid; bulged segments may be cut in pieces",
+            "LWPOLYLINE with thickness and width": "per segment two sides, lid and floor, and the two ends",
             "LINE with thickness": "1 surface",
             "POLYLINE (polyface)": "1 surface per face",
             "3DFACE, SOLID": "1 surface",
-            "LINE, ARC without thickness, TEXT, DIMENSION": "no surface, skipped",
+            "LINE, ARC, CIRCLE, LWPOLYLINE without thickness and width, TEXT, DIMENSION": "no surface, skipped",
         },
         "surfaces": sum(entry["surfaces"] for entry in layers.values()),
         "area_m2": math.fsum(entry["area_m2"] for entry in layers.values()),
