@@ -1,0 +1,67 @@
+#include "plugins/cli/options.h"
+
+#include "engine/base/text.h"
+#include "importers/units.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lightwell {
+
+void add_import_words(CLI::App& command, ImportWords& words)
+{
+    command
+        .add_option("--unit", words.unit, "unit of the drawing, when the file is silent or wrong: mm, m, in, ft, ...")
+        ->type_name("UNIT");
+    command.add_option("--up", words.up, "axis that points up in the file: y or z")->check(CLI::IsMember({"y", "z"}));
+}
+
+ImportOptions import_options(const ImportWords& words)
+{
+    ImportOptions options;
+    if (!words.unit.empty())
+        options.metres_per_unit = parse_unit(words.unit).value;
+    options.up = words.up;
+    return options;
+}
+
+void add_effort_words(CLI::App& command, EffortWords& words, double accuracy)
+{
+    words.accuracy = accuracy;
+    command
+        .add_option_function<std::string>(
+            "--accuracy", [&words](const std::string& text) { words.accuracy = parse_accuracy(text); },
+            "wanted standard error, relative, as median over the result: 5% or 0.05 (default " + shortest(accuracy) +
+                ")")
+        ->type_name("PERCENT");
+    command.add_option("--samples", words.samples, "paths per pixel or sensor, instead of an accuracy")
+        ->check(CLI::Range(1, 1 << 24))
+        ->type_name("N");
+    command.add_option("--seed", words.seed, "of the random numbers; the same seed gives the same bits (default 1)")
+        ->type_name("N");
+    command.add_option("--threads", words.threads, "0: all processors; the result does not depend on it")
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N");
+}
+
+double parse_accuracy(const std::string& text)
+{
+    const bool percent = !text.empty() && text.back() == '%';
+    const auto number = parse_double(percent ? std::string_view(text).substr(0, text.size() - 1) : text);
+    const double accuracy = number ? *number / (percent ? 100 : 1) : -1;
+    if (!(accuracy > 0 && accuracy < 1))
+        throw CLI::ValidationError("--accuracy", "\"" + text + "\" is no accuracy; expected 5% or 0.05, below 100%");
+    return accuracy;
+}
+
+std::pair<int, int> parse_size(const std::string& text)
+{
+    constexpr long long most = 65536; // beyond any screen and plotter; keeps products in range
+    const auto parts = split(text, "x");
+    const auto width = parts.size() == 2 ? parse_integer(parts[0]) : std::nullopt;
+    const auto height = parts.size() == 2 ? parse_integer(parts[1]) : std::nullopt;
+    if (!width || !height || *width < 1 || *height < 1 || *width > most || *height > most)
+        throw CLI::ValidationError("--size", "\"" + text + "\" is no size; expected WIDTHxHEIGHT, for example 960x540");
+    return {static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+} // namespace lightwell
