@@ -2,6 +2,7 @@
 
 #include "engine/base/text.h"
 #include "importers/units.h"
+#include "plugins/cli/scene_input.h"
 
 #include <CLI/CLI.hpp>
 
@@ -22,6 +23,33 @@ ImportOptions import_options(const ImportWords& words)
         options.metres_per_unit = parse_unit(words.unit).value;
     options.up = words.up;
     return options;
+}
+
+void add_sky_words(CLI::App& command, SkyWords& words)
+{
+    command
+        .add_option("--sky", words.type,
+                    "adds a CIE sky: clear, clear-no-sun, intermediate, intermediate-no-sun, overcast, uniform")
+        ->check(CLI::IsMember(sky_names()))
+        ->type_name("TYPE");
+    command.add_option("--place", words.place, "latitude,longitude in degrees, north and east positive: 52.5,13.4")
+        ->type_name("LAT,LON");
+    command.add_option("--time", words.time, "moment with its offset from UTC: 2026-03-21T12:00+01:00")
+        ->type_name("ISO");
+    command.add_option("--north", words.north_deg, "direction of north, degrees counter-clockwise from +y (default 0)")
+        ->type_name("DEG");
+    command.add_option("--turbidity", words.turbidity, "of the air (default 2.45)")->check(CLI::Range(1.0, 12.0));
+    command.add_option("--ground", words.ground_reflectance, "reflectance of the ground outside (default 0.2)")
+        ->check(CLI::Range(0.0, 1.0));
+}
+
+void add_scene_words(CLI::App& command, SceneWords& words)
+{
+    command.add_option("scene", words.file, "scene description (.rad) or CAD file (.dxf, .obj, .gltf, .glb)")
+        ->required();
+    command.add_option("--map", words.map, "layer map (TOML): which layer is made of what")->type_name("FILE");
+    add_import_words(command, words.import);
+    add_sky_words(command, words.sky);
 }
 
 void add_effort_words(CLI::App& command, EffortWords& words, double accuracy)

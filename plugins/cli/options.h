@@ -13,12 +13,20 @@ class Option;
 
 namespace lightwell {
 
+struct SceneWords;
+struct SkyWords;
+
 /// How to read a CAD file: `--unit`, `--up`.
 struct ImportWords {
     std::string unit, up;
 };
 void add_import_words(CLI::App& command, ImportWords& words);
 ImportOptions import_options(const ImportWords& words);
+
+/// The sky of a CAD scene: `--sky`, `--place`, `--time`, `--north`, `--turbidity`, `--ground`.
+void add_sky_words(CLI::App& command, SkyWords& words);
+/// The scene itself, `--map`, and all of the above.
+void add_scene_words(CLI::App& command, SceneWords& words);
 
 /// How much work: `--accuracy`, `--samples`, `--seed`, `--threads`.
 struct EffortWords {

@@ -8,8 +8,6 @@
 #include "importers/layers.h"
 #include "importers/radiance/radiance.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 
 namespace lightwell {
@@ -45,15 +43,6 @@ Scene read_cad(const SceneWords& words, LitScene& lit)
 }
 
 } // namespace
-
-void add_scene_words(CLI::App& command, SceneWords& words)
-{
-    command.add_option("scene", words.file, "scene description (.rad) or CAD file (.dxf, .obj, .gltf, .glb)")
-        ->required();
-    command.add_option("--map", words.map, "layer map (TOML): which layer is made of what")->type_name("FILE");
-    add_import_words(command, words.import);
-    add_sky_words(command, words.sky);
-}
 
 bool is_scene_text(const std::string& file)
 {

@@ -15,7 +15,6 @@ struct SceneWords {
     ImportWords import;
     SkyWords sky;
 };
-void add_scene_words(CLI::App& command, SceneWords& words);
 
 struct LitScene {
     Scene scene;

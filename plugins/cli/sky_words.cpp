@@ -3,8 +3,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
 
-#include <CLI/CLI.hpp>
-
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -26,14 +25,6 @@ constexpr std::array<NamedSky, 6> skies{{
     {"overcast", "overcast sky", CieSky::overcast, false},
     {"uniform", "uniform sky", CieSky::uniform, false},
 }};
-
-std::vector<std::string> sky_names()
-{
-    std::vector<std::string> names;
-    for (const NamedSky& sky : skies)
-        names.emplace_back(sky.name);
-    return names;
-}
 
 std::string tenths(double value)
 {
@@ -67,22 +58,12 @@ double parse_utc_offset(const std::string& offset, const std::string& text)
 
 } // namespace
 
-void add_sky_words(CLI::App& command, SkyWords& words)
+std::vector<std::string> sky_names()
 {
-    command
-        .add_option("--sky", words.type,
-                    "adds a CIE sky: clear, clear-no-sun, intermediate, intermediate-no-sun, overcast, uniform")
-        ->check(CLI::IsMember(sky_names()))
-        ->type_name("TYPE");
-    command.add_option("--place", words.place, "latitude,longitude in degrees, north and east positive: 52.5,13.4")
-        ->type_name("LAT,LON");
-    command.add_option("--time", words.time, "moment with its offset from UTC: 2026-03-21T12:00+01:00")
-        ->type_name("ISO");
-    command.add_option("--north", words.north_deg, "direction of north, degrees counter-clockwise from +y (default 0)")
-        ->type_name("DEG");
-    command.add_option("--turbidity", words.turbidity, "of the air (default 2.45)")->check(CLI::Range(1.0, 12.0));
-    command.add_option("--ground", words.ground_reflectance, "reflectance of the ground outside (default 0.2)")
-        ->check(CLI::Range(0.0, 1.0));
+    std::vector<std::string> names;
+    for (const NamedSky& sky : skies)
+        names.emplace_back(sky.name);
+    return names;
 }
 
 void parse_time(const std::string& text, PlaceAndTime& when)

@@ -3,10 +3,7 @@
 #include "engine/sky/sky.h"
 
 #include <string>
-
-namespace CLI {
-class App;
-}
+#include <vector>
 
 namespace lightwell {
 
@@ -18,7 +15,8 @@ struct SkyWords {
     double turbidity = 2.45;
     double ground_reflectance = 0.2;
 };
-void add_sky_words(CLI::App& command, SkyWords& words);
+/// The types, as --sky takes them.
+std::vector<std::string> sky_names();
 
 /// A sky with the words that describe it for the header of results.
 struct DescribedSky {
