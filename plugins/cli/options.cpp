@@ -83,7 +83,7 @@ double parse_accuracy(const std::string& text)
 
 std::pair<int, int> parse_size(const std::string& text)
 {
-    constexpr long long most = 65536; // beyond any screen and plotter; keeps products in range
+    constexpr long long most = 32768; // beyond any screen and plotter; what the simulation takes
     const auto parts = split(text, "x");
     const auto width = parts.size() == 2 ? parse_integer(parts[0]) : std::nullopt;
     const auto height = parts.size() == 2 ? parse_integer(parts[1]) : std::nullopt;

@@ -42,7 +42,7 @@ void add_effort_words(CLI::App& command, EffortWords& words, double accuracy);
 /// @throws CLI::ValidationError unless it lies between 0 and 1
 double parse_accuracy(const std::string& text);
 /// "960x540": width and height in pixels.
-/// @throws CLI::ValidationError unless both are in 1 ... 65536
+/// @throws CLI::ValidationError unless both are in 1 ... 32768
 std::pair<int, int> parse_size(const std::string& text);
 
 } // namespace lightwell

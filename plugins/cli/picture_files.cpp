@@ -18,11 +18,12 @@ namespace lightwell {
 namespace {
 
 /// The channels of a finished tile, so that the partial file has a place for each.
-constexpr std::array<const char*, 12> channel_names{"R",   "G",   "B",       "illuminance.Y", "Z",       "N.X",
-                                                    "N.Y", "N.Z", "error.R", "error.G",       "error.B", "error.Y"};
+constexpr std::array<const char*, 13> channel_names{
+    "R",       "G",       "B",       "illuminance.Y",      "Z", "N.X", "N.Y", "N.Z", "error.R",
+    "error.G", "error.B", "error.Y", "error.illuminance.Y"};
 constexpr const char* channel_units =
     "R, G, B: W/(m^2 sr), 179 lm/W; illuminance.Y: lx on the first surface, viewer's side; Z: m along the ray; "
-    "N: unit normal, world; error: one standard error, R, G, B in W/(m^2 sr), Y in cd/m^2";
+    "N: unit normal, world; error: one standard error, R, G, B in W/(m^2 sr), Y in cd/m^2, illuminance.Y in lx";
 
 std::string hexadecimal(std::uint64_t bits)
 {
