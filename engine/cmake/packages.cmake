@@ -13,3 +13,4 @@ find_package(CLI11 REQUIRED)               # plugins/cli
 find_package(draco REQUIRED)               # importers/gltf
 find_package(meshoptimizer REQUIRED)       # importers/gltf
 find_package(TinyGLTF REQUIRED)            # importers/gltf
+find_package(Python3 REQUIRED COMPONENTS Interpreter) # tests/structure, tests/cli
