@@ -16,7 +16,8 @@ MappedFile::MappedFile(const std::filesystem::path& file)
 {
     const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0)
-        throw InputError{file.string(), std::string("cannot be read: ") + std::strerror(errno), "check name and rights"};
+        throw InputError{file.string(), std::string("cannot be read: ") + std::strerror(errno),
+                         "check name and rights"};
     struct stat status {};
     const bool regular = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
     if (regular && status.st_size > 0) {
@@ -50,7 +51,8 @@ void write_atomically(const std::filesystem::path& file, const std::function<voi
     } catch (const std::exception& error) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
-        throw InputError{file.string(), std::string("cannot be written: ") + error.what(), "check rights and free space"};
+        throw InputError{file.string(), std::string("cannot be written: ") + error.what(),
+                         "check rights and free space"};
     }
 }
 

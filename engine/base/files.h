@@ -25,7 +25,8 @@ private:
 /// Calls `write` with a temporary name beside `file`, then renames: the final name never holds half a file.
 /// When `write` throws, the temporary file is removed and the final name is as it was.
 /// @throws InputError when the folder does not exist or cannot be written
-void write_atomically(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
+void write_atomically(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path&)>& write);
 /// The same for text that is already in memory.
 void write_text_atomically(const std::filesystem::path& file, std::string_view text);
 

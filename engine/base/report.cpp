@@ -8,14 +8,22 @@ namespace lightwell {
 std::string to_string(Finding finding)
 {
     switch (finding) {
-    case Finding::assumed: return "assumed";
-    case Finding::repaired: return "repaired";
-    case Finding::approximated: return "approximated";
-    case Finding::ignored: return "ignored";
-    case Finding::unsupported: return "not modelled";
-    case Finding::unmapped: return "unmapped";
-    case Finding::unused: return "unused";
-    case Finding::converted: return "converted";
+    case Finding::assumed:
+        return "assumed";
+    case Finding::repaired:
+        return "repaired";
+    case Finding::approximated:
+        return "approximated";
+    case Finding::ignored:
+        return "ignored";
+    case Finding::unsupported:
+        return "not modelled";
+    case Finding::unmapped:
+        return "unmapped";
+    case Finding::unused:
+        return "unused";
+    case Finding::converted:
+        return "converted";
     }
     return "note";
 }

@@ -35,8 +35,8 @@ Vec3 xyz_of_chromaticity(double x, double y)
 
 Matrix rgb_to_xyz(const double (&xy)[6], const Vec3& white)
 {
-    const Matrix raw{{xyz_of_chromaticity(xy[0], xy[1]), xyz_of_chromaticity(xy[2], xy[3]),
-                      xyz_of_chromaticity(xy[4], xy[5])}};
+    const Matrix raw{
+        {xyz_of_chromaticity(xy[0], xy[1]), xyz_of_chromaticity(xy[2], xy[3]), xyz_of_chromaticity(xy[4], xy[5])}};
     const Vec3 scale = multiply(inverted(raw), white);
     return {{raw.columns[0] * scale.x, raw.columns[1] * scale.y, raw.columns[2] * scale.z}};
 }

@@ -54,8 +54,8 @@ struct Scene {
 
 /// What a modifier finally is: the material behind its aliases and the pattern on the way.
 struct ResolvedMaterial {
-    const Material* material = nullptr;          ///< null: void, or inherited and not bound
-    const SkyBrightness* brightness = nullptr;   ///< the pattern that scales it
+    const Material* material = nullptr;        ///< null: void, or inherited and not bound
+    const SkyBrightness* brightness = nullptr; ///< the pattern that scales it
 };
 ResolvedMaterial resolve(const Scene& scene, ModifierId modifier);
 

@@ -20,8 +20,8 @@ struct Sensor {
 struct SensorGrid {
     std::string name = "grid";
     std::vector<Sensor> sensors;
-    int rows = 0, columns = 0;   ///< 0 when the sensors are a plain list
-    std::vector<int> cells;      ///< rows * columns indices into sensors, or -1
+    int rows = 0, columns = 0; ///< 0 when the sensors are a plain list
+    std::vector<int> cells;    ///< rows * columns indices into sensors, or -1
     double spacing_m = 0;
 };
 
@@ -29,8 +29,8 @@ struct SensorGrid {
 /// or `file:POINTS` (six numbers a line: x y z nx ny nz).
 struct GridRequest {
     enum class Kind { layer, plane, file } kind = Kind::layer;
-    std::string layer;   ///< glob
-    double height_m = 0; ///< above the layer's upward-facing surfaces
+    std::string layer;    ///< glob
+    double height_m = 0;  ///< above the layer's upward-facing surfaces
     double plane[5] = {}; ///< z, x0, y0, x1, y1
     std::string file;
     double spacing_m = 0.5;

@@ -16,7 +16,7 @@ struct View {
     Direction up{0, 0, 1};
     double horizontal = 45; ///< degrees; metres for a parallel view
     double vertical = 45;
-    double shift = 0, lift = 0; ///< of the picture's centre, in picture widths and heights
+    double shift = 0, lift = 0;   ///< of the picture's centre, in picture widths and heights
     double fore_m = 0, aft_m = 0; ///< clipping distances; 0: none
 };
 
@@ -44,7 +44,8 @@ private:
     double aspect_ = 1;
 };
 
-/// Reads `-vtv -vp x y z -vd x y z -vu x y z -vh a -vv a -vs s -vl l -vo d -va d`, with or without a leading VIEW= or rvu.
+/// Reads `-vtv -vp x y z -vd x y z -vu x y z -vh a -vv a -vs s -vl l -vo d -va d`, with or without a leading VIEW= or
+/// rvu.
 /// @throws InputError that names the word
 View parse_view(const std::string& text, const std::string& place);
 /// The same words, shortest numbers.

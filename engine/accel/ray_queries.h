@@ -1,0 +1,67 @@
+#pragma once
+
+#include "engine/base/spectrum.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace lightwell {
+
+/// A half-line or segment: origin + t * direction, 0 < t < t_max. The direction need not have unit length.
+struct Ray {
+    Point origin;
+    Vec3 direction;
+    double t_max = infinity;
+};
+
+/// Where a ray meets a surface.
+struct Hit {
+    double t = infinity;
+    Point position;
+    Direction normal;                    ///< geometric, unit, front side of the surface (world frame)
+    Direction shading_normal;            ///< interpolated where the surface has normals; same side as `normal`
+    ModifierId modifier = void_modifier; ///< instance bindings applied
+    std::uint64_t path = 0;              ///< hash of the instances passed; 0 in the root
+    const Part* part = nullptr;
+    std::uint32_t surface = 0;  ///< index into part->surfaces
+    std::uint32_t triangle = 0; ///< of a mesh
+    double error_m = 0;         ///< bound on how far `position` may lie off the surface
+
+    /// `position` moved off the surface to the side of `direction`, beyond its error: where scattered rays start.
+    Point leave(const Vec3& direction) const noexcept
+    {
+        return position + normal * (dot(normal, direction) >= 0 ? error_m : -error_m);
+    }
+};
+
+/// The path hash of an instance's surfaces; outer is the hash around it.
+std::uint64_t instance_path(std::uint64_t outer, std::uint32_t instance_surface) noexcept;
+
+/// Ray queries over a scene: single-precision boxes find candidates, every surface is decided in double.
+/// Polygons and triangles that share an edge (the same corner coordinates) never let a ray through between them.
+/// Thread-safe. The scene must outlive it.
+/// Error: exact up to rounding; no constant in scene units (tests/unit/accel).
+/// Source  Woop, Benthin, Wald 2013 (shared corners in a ray-aligned frame), extended to polygons of any outline
+class RayQueries {
+public:
+    explicit RayQueries(const Scene& scene);
+    ~RayQueries();
+    RayQueries(RayQueries&&) noexcept;
+    RayQueries& operator=(RayQueries&&) noexcept;
+
+    /// @return false when nothing is met; distant sources are not surfaces in this sense
+    bool closest(const Ray& ray, Hit& hit) const noexcept;
+    /// What is left of light along the ray: 1 when free, 0 when an opaque surface stands in the way, else the product
+    /// of the straight transmittances of what it passes.
+    Spectrum transmittance(const Ray& ray) const noexcept;
+
+    /// Bytes that the acceleration structures hold.
+    std::size_t bytes() const noexcept;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lightwell

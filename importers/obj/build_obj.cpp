@@ -1,0 +1,288 @@
+#include "importers/obj/build_obj.h"
+
+#include "engine/base/box.h"
+#include "engine/base/random.h"
+#include "engine/base/text.h"
+#include "importers/obj/triangulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+namespace lightwell {
+namespace {
+
+/// Corners may leave the plane of their face by this share of the face's diameter: files with four decimals do so.
+constexpr double planar_tolerance = 1e-4;
+/// Area below this share of the squared diameter is rounding error of double, not a surface.
+constexpr double zero_area_tolerance = 1e-14;
+/// Corner normals that differ by less are the same normal.
+constexpr double same_normal = 1e-6;
+/// A common normal this near to the face's own is the face's own, written with three or four decimals.
+constexpr double face_normal_tolerance = 1e-3;
+
+struct CornerHash {
+    std::size_t operator()(const ObjCorner& c) const noexcept
+    {
+        const auto bits = [](std::int32_t index) {
+            return static_cast<std::uint64_t>(static_cast<std::uint32_t>(index));
+        };
+        return mix_bits(bits(c.point) << 32 | bits(c.normal), bits(c.texture));
+    }
+};
+
+/// The triangles of one set of names, with shared corners.
+struct MeshInProgress {
+    Mesh mesh;
+    std::unordered_map<ObjCorner, std::uint32_t, CornerHash> known;
+    std::uint32_t first_face = 0;
+    bool textured = true;
+};
+
+/// One face without repeated corners, and what can be said about its shape.
+struct Outline {
+    std::vector<Point> points;
+    std::vector<ObjCorner> corners;
+    Vec3 area; ///< area vector, m^2
+    double diameter_m = 0;
+    double deviation_m = 0; ///< largest distance of a corner from the mean plane
+
+    bool has_area() const { return length(area) > zero_area_tolerance * diameter_m * diameter_m; }
+    bool planar() const { return deviation_m <= planar_tolerance * diameter_m; }
+};
+
+/// Stable over re-import: the number of the `f` statement in the file.
+std::string face_name(std::uint32_t number)
+{
+    std::string name = std::to_string(number);
+    name.insert(name.begin(), 'f');
+    return name;
+}
+
+/// Turns the faces of one file into surfaces.
+class ObjBuilder {
+public:
+    ObjBuilder(const ObjFile& file, const Affine& to_metres, const std::map<std::string, Spectrum>& colours,
+               Imported& imported);
+    void build();
+
+private:
+    void add_face(const ObjFace& face);
+    void take_outline(const ObjFace& face);
+    bool smooth(const ObjFace& face);
+    void add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& meshes, const ObjFace& face, bool with_normals);
+    std::uint32_t mesh_point(MeshInProgress& target, std::size_t corner, bool with_normals);
+    void finish_meshes(std::unordered_map<std::uint32_t, MeshInProgress>& meshes);
+    ModifierId modifier_of(std::uint32_t state);
+    void write_notes();
+
+    const ObjFile& file_;
+    const std::map<std::string, Spectrum>& colours_;
+    Imported& imported_;
+    KeyTable keys_;
+    std::vector<Point> points_;
+    std::vector<Direction> normals_;
+    std::vector<std::optional<ModifierId>> modifiers_; ///< by state
+    std::unordered_map<std::uint32_t, MeshInProgress> smooth_meshes_, flat_meshes_;
+    Outline outline_; ///< of the face at hand; kept to spare allocations
+    ObjTally warped_, crossing_, repeated_, against_;
+    double worst_deviation_m_ = 0;
+};
+
+ObjBuilder::ObjBuilder(const ObjFile& file, const Affine& to_metres, const std::map<std::string, Spectrum>& colours,
+                       Imported& imported)
+    : file_(file), colours_(colours), imported_(imported), keys_(imported), modifiers_(file.states.size())
+{
+    points_.reserve(file.points.size());
+    for (const Point& point : file.points)
+        points_.push_back(to_metres.point(point));
+    normals_.reserve(file.normals.size());
+    for (const Vec3& normal : file.normals)
+        normals_.push_back(normalized(to_metres.vector(normal)));
+}
+
+void ObjBuilder::build()
+{
+    imported_.scene.root.surfaces.reserve(file_.faces.size());
+    for (const ObjFace& face : file_.faces)
+        add_face(face);
+    finish_meshes(smooth_meshes_);
+    finish_meshes(flat_meshes_);
+    write_notes();
+}
+
+void ObjBuilder::take_outline(const ObjFace& face)
+{
+    outline_.points.clear();
+    outline_.corners.clear();
+    Box box;
+    Vec3 sum;
+    for (std::uint32_t i = face.first; i < face.first + face.count; ++i) {
+        const Point& point = points_[static_cast<std::size_t>(file_.corners[i].point)];
+        if (!outline_.points.empty() && point == outline_.points.back())
+            continue;
+        outline_.points.push_back(point);
+        outline_.corners.push_back(file_.corners[i]);
+        box.extend(point);
+        sum += point - points_[static_cast<std::size_t>(file_.corners[face.first].point)];
+    }
+    while (outline_.points.size() > 1 && outline_.points.front() == outline_.points.back()) {
+        outline_.points.pop_back();
+        outline_.corners.pop_back();
+    }
+    if (outline_.points.size() < face.count)
+        repeated_.add(face.line);
+    outline_.area = polygon_area_vector(outline_.points.data(), outline_.points.size());
+    outline_.diameter_m = box.diagonal();
+    outline_.deviation_m = 0;
+    if (outline_.points.size() == 3)
+        return;
+    const Direction front = normalized(outline_.area);
+    const Point middle = outline_.points.empty() ? Point{} : outline_.points[0] + sum / static_cast<double>(face.count);
+    for (const Point& point : outline_.points)
+        outline_.deviation_m = std::fmax(outline_.deviation_m, std::fabs(dot(point - middle, front)));
+}
+
+void ObjBuilder::add_face(const ObjFace& face)
+{
+    take_outline(face);
+    const bool enough = outline_.points.size() >= 3;
+    if (enough && outline_.has_area() && !smooth(face) && outline_.planar()) {
+        imported_.scene.root.add_polygon(outline_.points, modifier_of(face.state), face_name(face.number));
+        imported_.ledger.made();
+        return;
+    }
+    const bool with_normals = enough && outline_.has_area() && smooth(face);
+    const std::size_t before = imported_.ledger.made_count();
+    if (enough)
+        add_to_mesh(with_normals ? smooth_meshes_ : flat_meshes_, face, with_normals);
+    if (imported_.ledger.made_count() == before) {
+        imported_.ledger.skipped("face", layer_of(file_.states[face.state]), "zero area");
+        return;
+    }
+    if (!outline_.has_area())
+        crossing_.add(face.line);
+    else if (!outline_.planar())
+        warped_.add(face.line);
+    worst_deviation_m_ = std::fmax(worst_deviation_m_, outline_.deviation_m);
+}
+
+/// True when the corner normals say something that the plane of the face does not.
+bool ObjBuilder::smooth(const ObjFace& face)
+{
+    const Direction front = normalized(outline_.area);
+    double spread = 0, from_front = 0, from_back = 0;
+    for (const ObjCorner& corner : outline_.corners) {
+        if (corner.normal < 0)
+            return false;
+        const Direction& normal = normals_[static_cast<std::size_t>(corner.normal)];
+        if (normal == Vec3{})
+            return false;
+        spread = std::fmax(spread, max_abs(normal - normals_[static_cast<std::size_t>(outline_.corners[0].normal)]));
+        from_front = std::fmax(from_front, max_abs(normal - front));
+        from_back = std::fmax(from_back, max_abs(normal + front));
+    }
+    const bool flat = spread <= same_normal && std::fmin(from_front, from_back) <= face_normal_tolerance;
+    if (flat && from_back < from_front)
+        against_.add(face.line);
+    return !flat && !outline_.corners.empty();
+}
+
+std::uint32_t ObjBuilder::mesh_point(MeshInProgress& target, std::size_t corner, bool with_normals)
+{
+    ObjCorner key = outline_.corners[corner];
+    if (!with_normals)
+        key.normal = -1;
+    const auto [entry, fresh] = target.known.try_emplace(key, static_cast<std::uint32_t>(target.mesh.points.size()));
+    if (!fresh)
+        return entry->second;
+    target.mesh.points.push_back(outline_.points[corner]);
+    if (with_normals)
+        target.mesh.normals.push_back(normals_[static_cast<std::size_t>(key.normal)]);
+    target.textured = target.textured && key.texture >= 0;
+    for (std::size_t i = 0; i < 2; ++i)
+        target.mesh.texture.push_back(key.texture < 0 ? 0
+                                                      : file_.texture[2 * static_cast<std::size_t>(key.texture) + i]);
+    return entry->second;
+}
+
+void ObjBuilder::add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& meshes, const ObjFace& face,
+                             bool with_normals)
+{
+    const double least_area_m2 = zero_area_tolerance * outline_.diameter_m * outline_.diameter_m;
+    const std::vector<std::uint32_t> triangles = triangulate(outline_.points);
+    bool any = false;
+    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+        const Point& a = outline_.points[triangles[i]];
+        const Vec3 twice_area = cross(outline_.points[triangles[i + 1]] - a, outline_.points[triangles[i + 2]] - a);
+        if (!(0.5 * length(twice_area) > least_area_m2))
+            continue;
+        const auto [entry, fresh] = meshes.try_emplace(face.state);
+        if (fresh)
+            entry->second.first_face = face.number;
+        for (std::size_t k = 0; k < 3; ++k)
+            entry->second.mesh.triangles.push_back(mesh_point(entry->second, triangles[i + k], with_normals));
+        any = true;
+    }
+    imported_.ledger.made(any ? 1 : 0);
+}
+
+void ObjBuilder::finish_meshes(std::unordered_map<std::uint32_t, MeshInProgress>& meshes)
+{
+    for (std::uint32_t state = 0; state < file_.states.size(); ++state) {
+        const auto found = meshes.find(state);
+        if (found == meshes.end())
+            continue;
+        MeshInProgress& ready = found->second;
+        if (!ready.textured)
+            ready.mesh.texture.clear();
+        imported_.scene.root.add_mesh(std::make_shared<const Mesh>(std::move(ready.mesh)), modifier_of(state),
+                                      face_name(ready.first_face));
+    }
+    meshes.clear();
+}
+
+ModifierId ObjBuilder::modifier_of(std::uint32_t index)
+{
+    std::optional<ModifierId>& modifier = modifiers_[index];
+    if (modifier)
+        return *modifier;
+    const ObjState& state = file_.states[index];
+    SurfaceKey key{layer_of(state), {}, state.object, state.material, "face", {}};
+    for (const std::string& group : state.groups) {
+        if (!key.group.empty())
+            key.group += ' ';
+        key.group += group;
+    }
+    if (const auto colour = colours_.find(state.material); colour != colours_.end())
+        key.colour = colour->second;
+    modifier = keys_.modifier_for(key);
+    return *modifier;
+}
+
+void ObjBuilder::write_notes()
+{
+    const auto note = [&](const ObjTally& tally, Finding finding, const std::string& text) {
+        if (tally.count > 0)
+            imported_.report.add(finding, file_.name + ":" + std::to_string(tally.line) + ": face", text, tally.count);
+    };
+    note(warped_, Finding::approximated,
+         "corners do not lie in one plane; cut into triangles, corners were off the mean plane by at most " +
+             shortest(worst_deviation_m_) + " m");
+    note(crossing_, Finding::approximated, "outline crosses itself; cut into a fan of triangles");
+    note(repeated_, Finding::repaired, "a corner stands twice in a row; once is enough");
+    note(against_, Finding::repaired,
+         "vertex normals point against the order of the corners; the order decides which side is the front");
+}
+
+} // namespace
+
+void build_obj(const ObjFile& file, const Affine& to_metres, const std::map<std::string, Spectrum>& colours,
+               Imported& imported)
+{
+    ObjBuilder(file, to_metres, colours, imported).build();
+}
+
+} // namespace lightwell

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "materials/material.h"
+
+namespace lightwell {
+
+/// Radiance that a surface of this material sends to a viewer, W/(m^2 sr); black from behind, outside a spotlight's
+/// cone, and for what does not emit. An Illum sends its light whoever looks: what eyes see instead is decided where
+/// rays are told apart.
+/// @param cos_to_viewer    signed, against the front normal
+/// @param world_to_viewer  unit, in the frame of a spotlight's aim
+/// Source  Radiance reference manual, `light`, `illum`, `glow`, `spotlight`
+Spectrum emitted_towards(const Material& material, double cos_to_viewer, Direction world_to_viewer) noexcept;
+
+} // namespace lightwell

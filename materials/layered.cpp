@@ -1,0 +1,162 @@
+#include "materials/layered.h"
+
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/ward.h"
+
+#include <cmath>
+
+namespace lightwell {
+namespace {
+
+/// Reflectance that a smooth coating gains: 0.998 at 90 degrees, 0.00085 along the normal.
+/// Source  Radiance, exponential fit to Fresnel's formulas for an index near 1.5
+double grazing_gain(double cosine)
+{
+    constexpr double steepness = 5.85, offset = 0.00202943064;
+    return std::exp(-steepness * cosine) - offset;
+}
+
+/// Mean of grazing_gain() under diffuse light: 2 (1 - e^-s (1 + s)) / s^2 - offset.
+constexpr double mean_grazing_gain = 0.0552588;
+
+} // namespace
+
+Layered::Layered(Spectrum colour, double specularity, double roughness, double transmission,
+                 double transmitted_specular, bool tinted_highlight) noexcept
+    : colour_(colour), specularity_(specularity), roughness_(roughness), transmission_(transmission),
+      transmitted_specular_(transmitted_specular), tinted_highlight_(tinted_highlight),
+      smooth_(roughness <= smooth_roughness), has_fresnel_(smooth_ && specularity >= smallest_fresnel)
+{
+}
+
+Layered::Layered(const Plastic& p) noexcept : Layered(p.colour, p.specularity, p.roughness, 0, 0, false) {}
+
+Layered::Layered(const Metal& m) noexcept : Layered(m.colour, m.specularity, m.roughness, 0, 0, true) {}
+
+Layered::Layered(const Trans& t) noexcept
+    : Layered(t.colour, t.specularity, t.roughness, t.transmission, t.transmitted_specular, false)
+{
+}
+
+double Layered::fresnel_increase(double cosine) const noexcept
+{
+    return has_fresnel_ ? grazing_gain(std::fabs(cosine)) : 0;
+}
+
+Layered::Parts Layered::parts(double cos_viewer) const noexcept
+{
+    const double gain = fresnel_increase(cos_viewer);
+    const double below = (1 - specularity_) * (1 - gain); // share that enters
+    const double passing = below * transmission_;
+    const Spectrum highlight = tinted_highlight_ ? Spectrum::grey(gain) + colour_ * (specularity_ * (1 - gain))
+                                                 : Spectrum::grey(specularity_ + gain * (1 - specularity_));
+    return {colour_ * (below - passing), colour_ * (passing * (1 - transmitted_specular_)), highlight,
+            colour_ * (passing * transmitted_specular_)};
+}
+
+Layered::Shares Layered::shares(const Parts& parts) const noexcept
+{
+    const double dr = photopic(parts.diffuse_reflectance), dt = photopic(parts.diffuse_transmittance);
+    const double sr = photopic(parts.specular_reflectance), st = photopic(parts.specular_transmittance);
+    const double sum = dr + dt + sr + st;
+    if (!(sum > 0))
+        return {};
+    return {dr / sum, dt / sum, sr / sum, st / sum};
+}
+
+Spectrum Layered::value_of(const Parts& parts, Direction to_viewer, Direction to_light) const noexcept
+{
+    if (!(to_viewer.z > 0) || to_light.z == 0)
+        return {};
+    const bool reflected = to_light.z > 0;
+    const double entering = 1 - fresnel_increase(to_light.z);
+    const Spectrum& diffuse = reflected ? parts.diffuse_reflectance : parts.diffuse_transmittance;
+    Spectrum value = diffuse * (entering / pi);
+    if (!smooth_ && reflected && !parts.specular_reflectance.is_black())
+        value += parts.specular_reflectance * Ward(roughness_).value_per_sr(to_viewer, to_light);
+    if (!smooth_ && !reflected && !parts.specular_transmittance.is_black())
+        value += parts.specular_transmittance * RoughTransmission(roughness_).value_per_sr(to_viewer, to_light);
+    return value;
+}
+
+double Layered::density_of(const Shares& shares, Direction to_viewer, Direction to_light) const noexcept
+{
+    if (!(to_viewer.z > 0))
+        return 0;
+    double density = shares.diffuse_reflection * Diffuse::density_per_sr(to_light.z) +
+                     shares.diffuse_transmission * Diffuse::density_per_sr(-to_light.z);
+    if (!smooth_ && shares.specular_reflection > 0)
+        density += shares.specular_reflection * Ward(roughness_).density_per_sr(to_viewer, to_light);
+    if (!smooth_ && shares.specular_transmission > 0)
+        density += shares.specular_transmission * RoughTransmission(roughness_).density_per_sr(to_viewer, to_light);
+    return density;
+}
+
+Spectrum Layered::value_per_sr(Direction to_viewer, Direction to_light) const noexcept
+{
+    return value_of(parts(to_viewer.z), to_viewer, to_light);
+}
+
+double Layered::density_per_sr(Direction to_viewer, Direction to_light) const noexcept
+{
+    return density_of(shares(parts(to_viewer.z)), to_viewer, to_light);
+}
+
+std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, UnitSquare u) const noexcept
+{
+    if (!(to_viewer.z > 0))
+        return {};
+    const Parts all = parts(to_viewer.z);
+    const Shares share = shares(all);
+    Direction to_light;
+    if (choice < share.specular_reflection) {
+        if (smooth_)
+            return BsdfSample{mirrored(to_viewer), all.specular_reflectance / share.specular_reflection, 0, true,
+                              false};
+        to_light = Ward(roughness_).sample(to_viewer, u);
+        if (!(to_light.z > 0))
+            return {}; // lost below the surface
+    } else if ((choice -= share.specular_reflection) < share.specular_transmission) {
+        if (smooth_)
+            return BsdfSample{-to_viewer, all.specular_transmittance / share.specular_transmission, 0, true, true};
+        to_light = RoughTransmission(roughness_).sample(to_viewer, u);
+        if (!(to_light.z < 0))
+            return {};
+    } else {
+        to_light = Diffuse::sample(u);
+        // The last branch takes what rounding left over, but never a part that is not there.
+        const bool through =
+            share.diffuse_reflection == 0 || choice - share.specular_transmission >= share.diffuse_reflection;
+        if (through && share.diffuse_transmission > 0)
+            to_light.z = -to_light.z;
+    }
+    const double density = density_of(share, to_viewer, to_light);
+    if (!(density > 0))
+        return {};
+    return BsdfSample{to_light, value_of(all, to_viewer, to_light) * (std::fabs(to_light.z) / density), density, false,
+                      false};
+}
+
+Spectrum Layered::straight_transmittance(Direction to_viewer) const noexcept
+{
+    return smooth_ && to_viewer.z > 0 ? parts(to_viewer.z).specular_transmittance : Spectrum{};
+}
+
+Lobes Layered::lobes() const noexcept
+{
+    const Parts along_normal = parts(1);
+    const double entering = has_fresnel_ ? 1 - mean_grazing_gain : 1;
+    const bool mirror_like = !along_normal.specular_reflectance.is_black();
+    const bool passes = !along_normal.specular_transmittance.is_black();
+    Lobes lobes;
+    lobes.diffuse_reflectance = along_normal.diffuse_reflectance * entering;
+    lobes.diffuse_transmittance = along_normal.diffuse_transmittance * entering;
+    lobes.glossy = !smooth_ && (mirror_like || passes);
+    lobes.glossy_width_rad = lobes.glossy ? roughness_ : 0;
+    lobes.delta = smooth_ && (mirror_like || passes);
+    lobes.transparent_to_shadows = smooth_ && passes;
+    return lobes;
+}
+
+} // namespace lightwell

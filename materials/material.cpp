@@ -1,0 +1,229 @@
+#include "materials/material.h"
+
+#include "engine/base/errors.h"
+#include "engine/base/text.h"
+#include "materials/dielectric.h"
+#include "materials/thin_glass.h"
+
+#include <cmath>
+
+namespace lightwell {
+namespace {
+
+/// The checks of one material, each with the name it is called by in messages.
+class Checks {
+public:
+    explicit Checks(const std::string& place) : place_(place) {}
+
+    void fraction(const char* name, double value) const
+    {
+        if (!(value >= 0 && value <= 1))
+            fail(name, value, "in [0, 1]", "a surface cannot give back more light than it gets");
+    }
+    void fractions(const char* name, const Spectrum& s) const
+    {
+        for (int channel = 0; channel < 3; ++channel)
+            if (!(s[channel] >= 0 && s[channel] <= 1))
+                fail(channel_of(name, channel), s[channel], "in [0, 1]",
+                     "a surface cannot give back more light than it gets");
+    }
+    void index(double value) const
+    {
+        if (!(value > 0 && std::isfinite(value)))
+            fail("refractive index", value, "> 0", "glass has 1.52, water 1.33");
+    }
+    void radiance(const Spectrum& s) const
+    {
+        for (int channel = 0; channel < 3; ++channel)
+            if (!(s[channel] >= 0 && std::isfinite(s[channel])))
+                fail(channel_of("radiance", channel), s[channel], ">= 0 and finite", "give it in W/(m^2 sr)");
+    }
+    void finite(const char* name, double value) const
+    {
+        if (!std::isfinite(value))
+            fail(name, value, "finite", "");
+    }
+    [[noreturn]] void fail(const std::string& name, double value, const std::string& expected,
+                           const std::string& hint) const
+    {
+        const std::string shown = std::isnan(value) ? "not a number" : shortest(value);
+        throw InputError(place_, name + " is " + shown + ", expected " + expected, hint);
+    }
+
+private:
+    static std::string channel_of(const char* name, int channel)
+    {
+        return (channel == 0 ? "red " : channel == 1 ? "green " : "blue ") + std::string(name);
+    }
+    const std::string& place_;
+};
+
+void check(const Checks& checks, const Plastic& m)
+{
+    checks.fractions("reflectance", m.colour);
+    checks.fraction("specularity", m.specularity);
+    checks.fraction("roughness", m.roughness);
+}
+
+void check(const Checks& checks, const Metal& m)
+{
+    checks.fractions("reflectance", m.colour);
+    checks.fraction("specularity", m.specularity);
+    checks.fraction("roughness", m.roughness);
+}
+
+void check(const Checks& checks, const Trans& m)
+{
+    checks.fractions("colour", m.colour);
+    checks.fraction("specularity", m.specularity);
+    checks.fraction("roughness", m.roughness);
+    checks.fraction("transmission", m.transmission);
+    checks.fraction("transmitted specular share", m.transmitted_specular);
+}
+
+void check(const Checks& checks, const Dielectric& m)
+{
+    checks.fractions("transmission per metre", m.transmission_per_m);
+    checks.index(m.index);
+    checks.finite("Hartmann's constant", m.hartmann);
+    constexpr double mean_wavelength_nm = 500;
+    checks.index(m.index + m.hartmann / mean_wavelength_nm);
+}
+
+void check(const Checks& checks, const Glass& m)
+{
+    checks.fractions("transmissivity", m.transmissivity);
+    checks.index(m.index);
+}
+
+void check(const Checks& checks, const Mirror& m)
+{
+    checks.fractions("reflectance", m.reflectance);
+}
+
+void check(const Checks& checks, const Light& m)
+{
+    checks.radiance(m.radiance);
+}
+
+void check(const Checks& checks, const Illum& m)
+{
+    checks.radiance(m.radiance);
+}
+
+void check(const Checks& checks, const Glow& m)
+{
+    checks.radiance(m.radiance);
+    if (std::isnan(m.max_radius_m))
+        checks.fail("maximum radius", m.max_radius_m, "a length in metres", "0 has no shadow rays");
+}
+
+void check(const Checks& checks, const Spotlight& m)
+{
+    checks.radiance(m.radiance);
+    if (!(m.full_angle_deg > 0 && m.full_angle_deg <= 360))
+        checks.fail("full angle", m.full_angle_deg, "in (0, 360] degrees", "give the whole cone, not its half");
+    for (int axis = 0; axis < 3; ++axis)
+        checks.finite("component of the aim", m.aim[axis]);
+    if (m.aim == Vec3{})
+        checks.fail("length of the aim", 0, "> 0", "give the direction of the beam");
+}
+
+/// Mean over diffuse light, 2 times the integral of f(cos) cos, by the midpoint rule: good to a few parts in 1000.
+template <class Reflectance>
+Spectrum under_diffuse_light(Reflectance at_cosine)
+{
+    constexpr int steps = 64;
+    Spectrum sum;
+    for (int i = 0; i < steps; ++i) {
+        const double cosine = (i + 0.5) / steps;
+        sum += at_cosine(cosine) * (2 * cosine / steps);
+    }
+    return sum;
+}
+
+Spectrum typical(const Plastic& m)
+{
+    return m.colour * (1 - m.specularity) + Spectrum::grey(m.specularity);
+}
+
+Spectrum typical(const Metal& m)
+{
+    return m.colour;
+}
+
+Spectrum typical(const Trans& m)
+{
+    return m.colour * ((1 - m.specularity) * (1 - m.transmission)) + Spectrum::grey(m.specularity);
+}
+
+Spectrum typical(const Dielectric& m)
+{
+    const DielectricBoundary boundary(m.index, true);
+    return under_diffuse_light([&](double cosine) { return Spectrum::grey(boundary.reflectance(cosine)); });
+}
+
+Spectrum typical(const Glass& m)
+{
+    const ThinGlass glass(m.transmissivity, m.index);
+    return under_diffuse_light([&](double cosine) { return glass.reflectance(cosine); });
+}
+
+Spectrum typical(const Mirror& m)
+{
+    return m.reflectance;
+}
+
+template <class Emitter>
+Spectrum typical(const Emitter&)
+{
+    return {};
+}
+
+} // namespace
+
+void validate_material(const Material& material, const std::string& place)
+{
+    const Checks checks(place);
+    std::visit([&](const auto& m) { check(checks, m); }, material);
+}
+
+std::string type_name(const Material& material)
+{
+    // In the order of the alternatives of Material.
+    static constexpr const char* names[] = {"plastic", "metal", "trans", "dielectric", "glass",
+                                            "mirror",  "light", "illum", "glow",       "spotlight"};
+    static_assert(std::size(names) == std::variant_size_v<Material>);
+    return names[material.index()];
+}
+
+bool is_emitter(const Material& material) noexcept
+{
+    return std::visit(
+        [](const auto& m) {
+            return requires
+            {
+                m.radiance;
+            };
+        },
+        material);
+}
+
+Spectrum emitted_radiance(const Material& material) noexcept
+{
+    return std::visit(
+        [](const auto& m) -> Spectrum {
+            if constexpr (requires { m.radiance; })
+                return m.radiance;
+            else
+                return {};
+        },
+        material);
+}
+
+Spectrum typical_reflectance(const Material& material) noexcept
+{
+    return std::visit([](const auto& m) { return typical(m); }, material);
+}
+
+} // namespace lightwell

@@ -1,0 +1,79 @@
+#include "materials/ward.h"
+
+#include "engine/base/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightwell {
+namespace {
+
+/// Below this height of the half vector its fourth power leaves the range of numbers; no light travels so flat.
+constexpr double lowest_half_height = 1e-70;
+
+/// exp(-tan^2 / roughness^2) of the facet that mirrors one direction into the other; half is not normalized.
+double facet_share(const Vec3& half, double roughness)
+{
+    return std::exp(-(half.x * half.x + half.y * half.y) / (half.z * half.z * roughness * roughness));
+}
+
+} // namespace
+
+double Ward::value_per_sr(Direction to_viewer, Direction to_light) const noexcept
+{
+    const Vec3 half = to_viewer + to_light;
+    if (!(to_viewer.z > 0 && to_light.z > 0 && half.z > lowest_half_height))
+        return 0;
+    const double z2 = half.z * half.z;
+    return facet_share(half, roughness_) * dot(half, half) / (pi * roughness_ * roughness_ * z2 * z2);
+}
+
+double Ward::density_per_sr(Direction to_viewer, Direction to_light) const noexcept
+{
+    // value * cos_light / weight, with the weight 2 cos_light / (cos_viewer + cos_light).
+    return value_per_sr(to_viewer, to_light) * (to_viewer.z + to_light.z) / 2;
+}
+
+Direction Ward::sample(Direction to_viewer, UnitSquare u) const noexcept
+{
+    const double slope = roughness_ * std::sqrt(-std::log1p(-u.u));
+    const double azimuth = 2 * pi * u.v;
+    const Vec3 half{slope * std::cos(azimuth), slope * std::sin(azimuth), 1};
+    const Vec3 mirrored = half * (2 * dot(to_viewer, half) / dot(half, half)) - to_viewer;
+    return normalized(mirrored);
+}
+
+double RoughTransmission::lobe_per_sr(Direction to_viewer, Direction to_light) const noexcept
+{
+    // |sum|^2 = 2 - 2 cos of the angle to the straight direction, without cancellation.
+    const Vec3 sum = to_viewer + to_light;
+    const double width = roughness_ * roughness_;
+    return std::exp(-dot(sum, sum) / width) / (pi * width);
+}
+
+double RoughTransmission::value_per_sr(Direction to_viewer, Direction to_light) const noexcept
+{
+    if (!(to_viewer.z > 0 && to_light.z < 0))
+        return 0;
+    const double root = std::sqrt(to_viewer.z * -to_light.z);
+    return lobe_per_sr(to_viewer, to_light) / std::max(root, roughness_ / 2);
+}
+
+double RoughTransmission::density_per_sr(Direction to_viewer, Direction to_light) const noexcept
+{
+    if (!(to_viewer.z > 0 && to_light.z < 0))
+        return 0;
+    return lobe_per_sr(to_viewer, to_light) / -std::expm1(-4 / (roughness_ * roughness_));
+}
+
+Direction RoughTransmission::sample(Direction to_viewer, UnitSquare u) const noexcept
+{
+    const double width = roughness_ * roughness_;
+    const double one_minus_cos = std::min(2.0, -0.5 * width * std::log1p(u.u * std::expm1(-4 / width)));
+    const double sine = std::sqrt(std::max(0.0, one_minus_cos * (2 - one_minus_cos)));
+    const double azimuth = 2 * pi * u.v;
+    const Vec3 local{sine * std::cos(azimuth), sine * std::sin(azimuth), 1 - one_minus_cos};
+    return normalized(frame_about(-to_viewer).to_world(local));
+}
+
+} // namespace lightwell

@@ -1,0 +1,263 @@
+#include "engine/base/errors.h"
+#include "engine/base/files.h"
+#include "tests/unit/obj/measure.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+namespace lightwell {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::filesystem::path fixtures = LIGHTWELL_ROOT "/tests/fixtures/obj";
+
+Json truth_of(const std::string& stem)
+{
+    return Json::parse(std::ifstream(fixtures / (stem + ".truth.json")));
+}
+
+const Material& material_named(const Imported& imported, const std::string& name)
+{
+    for (const auto& [known, material] : imported.file_materials)
+        if (known == name)
+            return material;
+    throw std::runtime_error("no material " + name);
+}
+
+/// Imports a text through a file of its own, which is removed afterwards.
+Imported import_text(const std::string& text, const ImportOptions& options = {})
+{
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / (std::string("lightwell_") + test->name() + ".obj");
+    write_text_atomically(file, text);
+    struct Remove {
+        std::filesystem::path path;
+        ~Remove() { std::filesystem::remove(path); }
+    } remove{file};
+    return import_obj(file, options);
+}
+
+void expect_layers(const Imported& imported, const Json& truth)
+{
+    const Measured found = measure(imported);
+    EXPECT_EQ(found.layers.size(), truth["layers"].size());
+    for (const auto& [layer, expected] : truth["layers"].items()) {
+        SCOPED_TRACE(layer);
+        ASSERT_TRUE(found.layers.count(layer));
+        EXPECT_EQ(found.layers.at(layer).surfaces, expected["surfaces"].get<std::size_t>());
+        EXPECT_NEAR(found.layers.at(layer).area_m2, expected["area_m2"].get<double>(), 1e-9);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(found.bounds.low[axis], truth["bounds_m"][0][static_cast<std::size_t>(axis)].get<double>(), 1e-12);
+        EXPECT_NEAR(found.bounds.high[axis], truth["bounds_m"][1][static_cast<std::size_t>(axis)].get<double>(), 1e-12);
+    }
+}
+
+TEST(Obj, ARoomInMillimetresKeepsItsLayersAreasAndMaterials)
+{
+    const Imported room = import_obj(fixtures / "room.obj", {});
+    const Json truth = truth_of("room");
+    expect_layers(room, truth);
+    EXPECT_EQ(room.ledger.made_count(), truth["faces"].get<std::size_t>());
+    for (const auto& [type, count] : truth["skipped"].items())
+        EXPECT_EQ(skipped_of_type(room, type), count.get<std::size_t>()) << type;
+    EXPECT_EQ(room.ledger.read_count(), 14u);
+    for (std::size_t i = 0; i < room.keys.size(); ++i)
+        EXPECT_EQ(room.keys[i].material, truth["layers"][room.keys[i].layer]["material"].get<std::string>());
+    EXPECT_EQ(room.unit, "mm (from a comment of the file)");
+    EXPECT_FALSE(room.report.has(Finding::assumed));
+    validate(room.scene);
+}
+
+TEST(Obj, AConcaveFloorStaysOnePolygonOfSixCorners)
+{
+    const Imported room = import_obj(fixtures / "room.obj", {});
+    ASSERT_EQ(room.scene.root.surfaces[0].shape, Shape::polygon);
+    EXPECT_EQ(room.scene.root.polygons[0].count, 6u);
+    EXPECT_EQ(room.scene.root.surfaces[0].name, "f1");
+}
+
+TEST(Obj, GroupsObjectAndMaterialAreSeparateWordsOfTheKey)
+{
+    const Imported room = import_obj(fixtures / "room.obj", {});
+    const SurfaceKey& ceiling = room.keys[1];
+    EXPECT_EQ(ceiling.layer, "A-CLNG");
+    EXPECT_EQ(ceiling.group, "A-CLNG ceiling");
+    EXPECT_EQ(ceiling.block, "Room");
+    EXPECT_EQ(ceiling.entity, "face");
+    ASSERT_TRUE(ceiling.colour.has_value());
+    EXPECT_DOUBLE_EQ(ceiling.colour->r, 0.75);
+}
+
+TEST(Obj, MaterialsOfTheLibraryFollowTheStatedRule)
+{
+    const Imported room = import_obj(fixtures / "room.obj", {});
+    const auto& paint = std::get<Plastic>(material_named(room, "Wall paint (white) 0.75"));
+    EXPECT_NEAR(paint.colour.g, 0.75, 1e-6);
+    EXPECT_EQ(paint.specularity, 0);
+    const auto& lamp = std::get<Light>(material_named(room, "Lamp"));
+    EXPECT_NEAR(to_rec709(lamp.radiance).r, 12, 1e-9);
+    EXPECT_NEAR(to_rec709(lamp.radiance).b, 10, 1e-9);
+    const auto& pane = std::get<Glass>(material_named(room, "Pane"));
+    EXPECT_NEAR(to_rec709(pane.transmissivity).g, 0.92, 1e-9);
+    EXPECT_EQ(pane.index, 1.5);
+    const auto& chrome = std::get<Metal>(material_named(room, "Chrome"));
+    EXPECT_NEAR(chrome.colour.r, 0.6, 1e-6);
+    EXPECT_NEAR(chrome.roughness, 0.1, 1e-12); // sqrt(2 / 200)
+    const auto& brushed = std::get<Metal>(material_named(room, "Brushed"));
+    EXPECT_NEAR(brushed.roughness, 0.16, 1e-12);
+    EXPECT_NEAR(to_rec709(brushed.colour).r, 0.5, 1e-9);
+    const auto& varnish = std::get<Plastic>(material_named(room, "Varnish"));
+    EXPECT_NEAR(varnish.specularity, 0.04, 1e-6); // 0.5 * 8 / 100
+    EXPECT_NEAR(to_rec709(varnish.colour * (1 - varnish.specularity)).r, 0.4, 1e-9);
+    const auto& bright = std::get<Plastic>(material_named(room, "Too bright"));
+    EXPECT_NEAR(bright.specularity, 0.1, 1e-6);
+    EXPECT_EQ(noted(room.report, "the highlight is weakened"), 1u);
+    EXPECT_EQ(noted(room.report, "texture `map_Kd` is not modelled yet"), 1u);
+    for (const auto& [name, material] : room.file_materials)
+        EXPECT_NO_THROW(validate_material(material, name));
+}
+
+TEST(Obj, SmoothSidesBecomeOneMeshAndFlatEndsStayPolygons)
+{
+    const Imported column = import_obj(fixtures / "cylinder.obj", {});
+    const Json truth = truth_of("cylinder");
+    expect_layers(column, truth);
+    ASSERT_EQ(column.scene.root.meshes.size(), 1u);
+    const Mesh& side = *column.scene.root.meshes[0];
+    EXPECT_EQ(side.triangles.size() / 3, truth["mesh_triangles"].get<std::size_t>());
+    EXPECT_EQ(side.points.size(), truth["mesh_points"].get<std::size_t>());
+    EXPECT_EQ(side.texture.size(), 2 * side.points.size());
+    EXPECT_EQ(column.scene.root.polygons.size(), truth["polygons"].get<std::size_t>());
+    for (std::size_t i = 0; i < side.points.size(); ++i) {
+        const Point& p = side.points[i];
+        EXPECT_NEAR(max_abs(side.normals[i] - normalized(Vec3{p.x, p.y, 0})), 0, 1e-12);
+    }
+    EXPECT_EQ(column.ledger.made_count(), truth["faces"].get<std::size_t>());
+    EXPECT_EQ(noted(column.report, "y is up"), 1u);
+    EXPECT_EQ(noted(column.report, "unit is metre"), 1u);
+}
+
+TEST(Obj, TheFrontOfASmoothSideLooksAwayFromTheAxis)
+{
+    const Imported column = import_obj(fixtures / "cylinder.obj", {});
+    const Mesh& side = *column.scene.root.meshes.at(0);
+    for (std::size_t i = 0; i < side.triangles.size(); i += 3) {
+        const Point &a = side.points[side.triangles[i]], &b = side.points[side.triangles[i + 1]],
+                    &c = side.points[side.triangles[i + 2]];
+        EXPECT_GT(dot(cross(b - a, c - a), side.normals[side.triangles[i]]), 0);
+    }
+}
+
+TEST(Obj, WarpedFacesAreCutInsideTheirOutlineAndTheDeviationIsNoted)
+{
+    const Imported warped = import_obj(fixtures / "warped.obj", {});
+    const Json truth = truth_of("warped");
+    const Measured found = measure(warped);
+    const double square = found.layers.at("square").area_m2;
+    EXPECT_NEAR(std::fmin(std::fabs(square - truth["square_area_either_m2"][0].get<double>()),
+                          std::fabs(square - truth["square_area_either_m2"][1].get<double>())),
+                0, 1e-12);
+    EXPECT_NEAR(found.layers.at("arrow").area_m2, truth["arrow_area_m2"].get<double>(), 1e-12);
+    EXPECT_EQ(noted(warped.report, "corners do not lie in one plane"), 2u);
+}
+
+TEST(Obj, DamagedFacesAreLeftOutForANamedReasonAndTheRestIsKept)
+{
+    const Imported damaged = import_obj(fixtures / "damaged.obj", {});
+    const Json truth = truth_of("damaged");
+    EXPECT_EQ(damaged.ledger.made_count(), truth["made"].get<std::size_t>());
+    EXPECT_NEAR(measure(damaged).total.area_m2, truth["area_m2"].get<double>(), 1e-12);
+    for (const auto& [reason, count] : truth["skipped"].items())
+        EXPECT_EQ(skipped_for(damaged, reason), count.get<std::size_t>()) << reason;
+    EXPECT_EQ(noted(damaged.report, "unknown statement, the first is `frobnicate`"), 1u);
+    EXPECT_EQ(noted(damaged.report, "never carried out"), 1u);
+    for (const Note& note : damaged.report.notes())
+        if (note.text.find("a vertex that is not there") != std::string::npos) {
+            EXPECT_EQ(note.place, "damaged.obj:11");
+        }
+}
+
+TEST(Obj, OptionsOverrideUnitAndUpAxis)
+{
+    ImportOptions options;
+    options.metres_per_unit = 0.0254;
+    options.up = "y";
+    const Imported room = import_obj(fixtures / "room.obj", options);
+    EXPECT_NEAR(measure(room).layers.at("A-FLOR").area_m2, 24e6 * 0.0254 * 0.0254, 1e-6);
+    EXPECT_NEAR(measure(room).bounds.high.z, 4500 * 0.0254, 1e-9); // y of the file
+    EXPECT_EQ(room.unit, "in (given)");
+    options.up = "x";
+    EXPECT_THROW(import_obj(fixtures / "room.obj", options), InputError);
+    options.up = "";
+    options.metres_per_unit = std::nan("");
+    EXPECT_THROW(import_obj(fixtures / "room.obj", options), InputError);
+}
+
+TEST(Obj, AMissingLibraryIsSurvivedAndSaid)
+{
+    const Imported found = import_text("mtllib not there.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Brick Wall\nf 1 2 3\n");
+    EXPECT_EQ(found.keys.at(0).material, "Brick Wall");
+    EXPECT_EQ(found.keys.at(0).layer, "Brick Wall");
+    EXPECT_EQ(noted(found.report, "material library \"not\" is not there"), 1u);
+    EXPECT_EQ(noted(found.report, "material \"Brick Wall\" is used but not described"), 1u);
+}
+
+TEST(Obj, ATextWithoutVertexOrFaceIsRefusedWithItsName)
+{
+    try {
+        import_text("hello\nworld\n");
+        FAIL() << "expected an error";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("no vertex and no face found in 2 lines"), std::string::npos);
+    }
+    EXPECT_THROW(import_text(""), InputError);
+    EXPECT_THROW(import_obj(fixtures / "no_such_file.obj", {}), InputError);
+}
+
+TEST(Obj, EveryTruncationOfAFileIsReadOrRefusedButNeverCrashes)
+{
+    const MappedFile room(fixtures / "room.obj");
+    const std::string text(room.bytes());
+    for (std::size_t size = 0; size < text.size(); size += 7) {
+        try {
+            const Imported part = import_text(text.substr(0, size));
+            validate(part.scene);
+            EXPECT_LE(part.ledger.made_count(), 10u);
+        } catch (const InputError&) {
+            EXPECT_LT(size, 80u) << "only a file without any vertex may be refused";
+        }
+    }
+}
+
+TEST(Obj, AFaceMayComeBeforeItsVerticesAndCommentsMayEndALine)
+{
+    const Imported found = import_text("f 1 2 3 # before\nv 0 0 0 # a\nv 2 0 0\nv 0 2 0\ng Cube # inline\n");
+    EXPECT_NEAR(measure(found).total.area_m2, 2, 1e-15);
+    EXPECT_EQ(found.keys.at(0).layer, "default");
+}
+
+TEST(Obj, RoundedNormalsOfAFlatFaceDoNotMakeItSmooth)
+{
+    const Imported found = import_text("v 0 0 0\nv 1 0 0\nv 0 1 1\nv 5 0 0\nv 6 0 0\nv 5 1 1\n"
+                                       "vn 0 -0.707 0.707\nvn 0 -0.71 0.72\nf 1//1 2//1 3//1\nf 4//2 5//2 6//2\n");
+    EXPECT_EQ(found.scene.root.polygons.size(), 1u);
+    EXPECT_EQ(found.scene.root.meshes.size(), 1u);
+}
+
+TEST(Obj, ContentDecidesWhetherAFileIsObj)
+{
+    EXPECT_TRUE(recognize_obj(fixtures / "room.obj"));
+    EXPECT_TRUE(recognize_obj(fixtures / "cylinder.obj"));
+    EXPECT_FALSE(recognize_obj(fixtures / "room materials.mtl"));
+    EXPECT_FALSE(recognize_obj(fixtures / "room.truth.json"));
+    EXPECT_FALSE(recognize_obj(fixtures / "make_fixtures.py"));
+}
+
+} // namespace
+} // namespace lightwell
