@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""The office's files are what its script draws, and its truth agrees with what ezdxf finds in the drawing.
+"""The office's files are what its script draws, and what they hold agrees with their truth: ezdxf reads the DXF, short
+readers of this file the OBJ and the GLB.
 
     office_files_test.py     status 0: all holds; 1: something differs, with a sentence for each; 2: no ezdxf
 """
 import json
 import math
 import os
+import struct
 import subprocess
 import sys
 import tempfile
@@ -59,12 +61,110 @@ def entity_counts_agree_with_ezdxf():
         assert count(document.blocks.get(name)) == expected, "block %s" % name
 
 
+def obj_agrees_with_its_truth():
+    """Faces read line by line, areas by the cross products of a fan."""
+    truth = json.loads((OFFICE / "office.obj.truth.json").read_text())
+    points, areas, layer = [], {}, None
+    for line in (OFFICE / "office.obj").read_text().splitlines():
+        word, *rest = line.split() or [""]
+        if word == "v":
+            points.append([float(v) / 1000 for v in rest])
+        elif word == "g":
+            layer = rest[0]
+        elif word == "f":
+            areas.setdefault(layer, []).append(fan_area([points[int(i) - 1] for i in rest]))
+    compare(areas, truth)
+    expect_bounds(points, truth)
+
+
+def glb_agrees_with_its_truth():
+    """Nodes walked with matrices made of their rotation quaternions."""
+    truth = json.loads((OFFICE / "office.glb.truth.json").read_text())
+    data = (OFFICE / "office.glb").read_bytes()
+    magic, version, total, json_length, kind = struct.unpack_from("<4sIII4s", data)
+    assert (magic, version, total, kind) == (b"glTF", 2, len(data), b"JSON")
+    model, body = json.loads(data[20:20 + json_length]), data[28 + json_length:]
+    meshes = [mesh_triangles(model, mesh, body) for mesh in model["meshes"]]
+    areas, triangles, points = {}, {}, []
+
+    def walk(number, to_world):
+        node = model["nodes"][number]
+        move = node_map(node)
+        here = lambda p: to_world(move(p))
+        if "mesh" in node:
+            layer = node["extras"]["layer"]
+            world = [[here(p) for p in triangle] for triangle in meshes[node["mesh"]]]
+            points.extend((p[0], -p[2], p[1]) for triangle in world for p in triangle)
+            areas.setdefault(layer, []).append(math.fsum(fan_area(triangle) for triangle in world))
+            triangles[layer] = triangles.get(layer, 0) + len(world)
+        for child in node.get("children", ()):
+            walk(child, here)
+
+    for root in model["scenes"][model["scene"]]["nodes"]:
+        walk(root, lambda p: p)
+    compare(areas, truth)
+    expect_bounds(points, truth)
+    assert triangles == {layer: entry["triangles"] for layer, entry in truth["layers"].items()}
+
+
 def daylight_map_differs_only_in_the_lamps():
     with_lamps, without = [
         [line for line in (OFFICE / name).read_text().splitlines() if not line.startswith("#")]
         for name in ("map.toml", "map_daylight.toml")]
     assert [line for line in with_lamps if line not in without] == ['use = "led_panel_8000cd"', 'side = "front"']
     assert [line for line in without if line not in with_lamps] == ['use = "acrylic_opal"']
+
+
+def compare(areas, truth):
+    assert sorted(areas) == sorted(truth["layers"]), "layers: %s" % sorted(areas)
+    for layer, expected in truth["layers"].items():
+        assert len(areas[layer]) == expected["surfaces"], "%s: %d surfaces" % (layer, len(areas[layer]))
+        area = math.fsum(areas[layer])
+        assert abs(area - expected["area_m2"]) <= 1e-9 * area, "%s: %.12g m2" % (layer, area)
+        lost = expected["exact_area_m2"] - expected["area_m2"]
+        assert abs(lost) <= 0.03 * expected["exact_area_m2"], "%s: prisms of another size" % layer
+
+
+def expect_bounds(points, truth):
+    for i in range(3):
+        assert abs(min(p[i] for p in points) - truth["bounds_m"]["low"][i]) < 1e-9
+        assert abs(max(p[i] for p in points) - truth["bounds_m"]["high"][i]) < 1e-9
+
+
+def fan_area(corners):
+    total = [0.0, 0.0, 0.0]
+    x, y, z = corners[0]
+    for p, q in zip(corners[1:], corners[2:]):
+        a, b, c = p[0] - x, p[1] - y, p[2] - z
+        d, e, f = q[0] - x, q[1] - y, q[2] - z
+        total = [total[0] + b * f - c * e, total[1] + c * d - a * f, total[2] + a * e - b * d]
+    return math.sqrt(sum(v * v for v in total)) / 2
+
+
+def mesh_triangles(model, mesh, body):
+    primitive = mesh["primitives"][0]
+    positions, indices = (model["accessors"][n] for n in (primitive["attributes"]["POSITION"], primitive["indices"]))
+    start = model["bufferViews"][positions["bufferView"]]["byteOffset"]
+    flat = struct.unpack_from("<%df" % (3 * positions["count"]), body, start)
+    start = model["bufferViews"][indices["bufferView"]]["byteOffset"]
+    order = struct.unpack_from("<%dH" % indices["count"], body, start)
+    assert max(order) < positions["count"]
+    return [[flat[3 * i:3 * i + 3] for i in order[k:k + 3]] for k in range(0, len(order), 3)]
+
+
+def node_map(node):
+    tx, ty, tz = node.get("translation", (0, 0, 0))
+    x, y, z, w = node.get("rotation", (0, 0, 0, 1))
+    sx, sy, sz = node.get("scale", (1, 1, 1))
+    columns = ((1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)),
+               (2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)),
+               (2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)))
+    (a, b, c), (d, e, f), (g, h, i) = columns
+
+    def apply(p):
+        u, v, r = p[0] * sx, p[1] * sy, p[2] * sz
+        return (a * u + d * v + g * r + tx, b * u + e * v + h * r + ty, c * u + f * v + i * r + tz)
+    return apply
 
 
 def drawing():
@@ -143,7 +243,7 @@ def polyline_areas(entity, thickness):
 
 
 CHECKS = [remade_files_are_the_same, audit_finds_nothing, areas_agree_with_ezdxf, entity_counts_agree_with_ezdxf,
-          daylight_map_differs_only_in_the_lamps]
+          obj_agrees_with_its_truth, glb_agrees_with_its_truth, daylight_map_differs_only_in_the_lamps]
 
 
 def main():
