@@ -15,11 +15,11 @@ namespace lightwell {
 
 /// What a layer map can ask about a surface. Surfaces with equal keys share one modifier of the imported scene.
 struct SurfaceKey {
-    std::string layer;    ///< what the user knows as the layer (see each importer's README); never empty
-    std::string group;    ///< OBJ group, glTF node path
-    std::string block;    ///< DXF block, glTF mesh; empty outside blocks
-    std::string material; ///< the file's material name
-    std::string entity;   ///< DXF entity type, "mesh", "face"
+    std::string layer;              ///< what the user knows as the layer (see each importer's README); never empty
+    std::string group;              ///< OBJ group, glTF node path
+    std::string block;              ///< DXF block, glTF mesh; empty outside blocks
+    std::string material;           ///< the file's material name
+    std::string entity;             ///< DXF entity type, "mesh", "face"
     std::optional<Spectrum> colour; ///< the file's colour, linear Rec.709
 };
 
@@ -29,8 +29,11 @@ struct Imported {
     std::vector<SurfaceKey> keys; ///< keys[i] belongs to scene.modifiers[i], an Alias without target (or Inherited)
     /// Materials that the file itself describes (MTL, glTF), by the file's name, to be used when no rule matches.
     std::vector<std::pair<std::string, Material>> file_materials;
-    std::string unit;             ///< as reported: "mm (from $INSUNITS)", "m (glTF)", ...
-    Ledger ledger;                ///< entities read = made + skipped
+    std::string unit; ///< as reported: "mm (from $INSUNITS)", "m (glTF)", ...
+    Ledger ledger;    ///< entities read = made + skipped
+    /// Entities made into surfaces of keys[i]; empty when there is one entity for each surface name. Only formats that
+    /// gather many entities in one mesh need it, so that the ledger stays right when a layer map drops a layer.
+    std::vector<std::size_t> made_with_key;
     Report report;
 };
 

@@ -8,8 +8,9 @@ find_package(PNG REQUIRED)                 # engine/pictures
 find_package(JPEG REQUIRED)                # importers/gltf
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(tomlplusplus REQUIRED)        # importers, plugins
+find_package(tomlplusplus REQUIRED)        # engine/base
 find_package(CLI11 REQUIRED)               # plugins/cli
 find_package(draco REQUIRED)               # importers/gltf
 find_package(meshoptimizer REQUIRED)       # importers/gltf
 find_package(TinyGLTF REQUIRED)            # importers/gltf
+find_package(Python3 REQUIRED COMPONENTS Interpreter) # tests/structure, tests/cli

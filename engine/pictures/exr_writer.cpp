@@ -1,0 +1,210 @@
+#include "engine/base/errors.h"
+#include "engine/base/spectrum.h"
+#include "engine/base/text.h"
+#include "engine/pictures/exr_file.h"
+#include "engine/pictures/exr_header.h"
+#include "engine/pictures/limits.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace lightwell {
+
+namespace {
+
+/// Collects what belongs to one tile and hands it over in one call, so that a kill rarely splits a tile, and
+/// remembers errors, which OpenEXR forgets when it closes a file.
+class FileStream : public Imf::OStream {
+public:
+    explicit FileStream(const std::filesystem::path& file)
+        : OStream(file.c_str()), descriptor_(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+    {
+        if (descriptor_ < 0)
+            throw std::system_error(errno, std::generic_category());
+    }
+    ~FileStream() override
+    {
+        if (descriptor_ >= 0)
+            ::close(descriptor_);
+    }
+    FileStream(const FileStream&) = delete;
+    FileStream& operator=(const FileStream&) = delete;
+
+    void write(const char bytes[], int count) override { pending_.append(bytes, static_cast<std::size_t>(count)); }
+    std::uint64_t tellp() override { return start_ + pending_.size(); }
+    void seekp(std::uint64_t position) override
+    {
+        flush();
+        start_ = position;
+    }
+    void flush()
+    {
+        std::size_t done = 0;
+        while (done < pending_.size()) {
+            const ssize_t written =
+                pwrite(descriptor_, pending_.data() + done, pending_.size() - done, static_cast<off_t>(start_ + done));
+            if (written < 0 && errno == EINTR)
+                continue;
+            if (written <= 0) {
+                error_ = written < 0 ? errno : ENOSPC;
+                throw std::system_error(error_, std::generic_category());
+            }
+            done += static_cast<std::size_t>(written);
+        }
+        start_ += pending_.size();
+        pending_.clear();
+    }
+    void finish()
+    {
+        flush();
+        if (error_ == 0 && ::close(std::exchange(descriptor_, -1)) != 0)
+            error_ = errno;
+        if (error_ != 0)
+            throw std::system_error(error_, std::generic_category());
+    }
+
+private:
+    int descriptor_;
+    int error_ = 0;
+    std::uint64_t start_ = 0; ///< where `pending_` goes
+    std::string pending_;
+};
+
+/// Unit of what a channel holds, by its name (picture.h); empty for a channel that is not ours.
+std::string unit_of(std::string_view channel)
+{
+    if (channel.starts_with("error."))
+        channel.remove_prefix(6);
+    if (channel == "R" || channel == "G" || channel == "B")
+        return "W/(m^2 sr)";
+    if (channel.starts_with("illuminance."))
+        return "lx";
+    if (channel == "Y")
+        return "cd/m^2";
+    if (channel == "Z")
+        return "m";
+    return channel.starts_with("N.") ? "1" : "";
+}
+
+Primaries primaries_of(const Picture& layout, const std::string& place)
+{
+    const auto entry = layout.header.find("chromaticities");
+    if (entry == layout.header.end())
+        return engine_primaries;
+    std::array<float, 8> numbers{};
+    const std::vector<std::string_view> words = split(entry->second);
+    bool good = words.size() == numbers.size();
+    for (std::size_t i = 0; good && i < numbers.size(); ++i) {
+        const std::optional<double> number = parse_double(words[i]);
+        good = number && *number >= -10 && *number <= 10;
+        numbers[i] = static_cast<float>(number.value_or(0));
+    }
+    if (!good)
+        throw InputError{place, "header entry chromaticities is \"" + entry->second + "\"",
+                         "expected eight numbers x y"};
+    return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6], numbers[7]};
+}
+
+/// @return 0 when the picture says that it is not known
+float white_luminance_of(const Picture& layout, const std::string& place)
+{
+    const auto entry = layout.header.find("whiteLuminance");
+    if (entry == layout.header.end())
+        return static_cast<float>(lumens_per_watt);
+    const std::optional<double> number = parse_double(entry->second);
+    if (!(number && *number >= 0 && *number <= 1e30))
+        throw InputError{place, "header entry whiteLuminance is \"" + entry->second + "\"",
+                         "expected cd/m^2, or 0 for unknown"};
+    return static_cast<float>(*number);
+}
+
+void add_text(Imf::Header& header, const std::string& name, const std::string& text, const std::string& place)
+{
+    constexpr std::size_t longest_name = 255;
+    if (name.empty() || name.size() > longest_name || name.find('\0') != std::string::npos ||
+        is_reserved_exr_name(name))
+        throw InputError{place, "header entry \"" + name + "\" has a name that OpenEXR cannot hold or keeps for itself",
+                         "choose another name of 1 to 255 bytes"};
+    header.insert(name, Imf::StringAttribute(text));
+}
+
+Imf::Header header_of(const Picture& layout, int tile_size, bool any_order, const std::string& place)
+{
+    Imf::Header header(layout.width, layout.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    header.lineOrder() = any_order ? Imf::RANDOM_Y : Imf::INCREASING_Y;
+    const auto side = static_cast<unsigned>(tile_size);
+    header.setTileDescription(Imf::TileDescription(side, side, Imf::ONE_LEVEL));
+    const Primaries p = primaries_of(layout, place);
+    Imf::addChromaticities(header, Imf::Chromaticities({p.red_x, p.red_y}, {p.green_x, p.green_y}, {p.blue_x, p.blue_y},
+                                                       {p.white_x, p.white_y}));
+    if (const float white = white_luminance_of(layout, place); white > 0)
+        Imf::addWhiteLuminance(header, white);
+    for (const auto& [name, values] : layout.channels) {
+        constexpr std::size_t longest_channel = 240; // leaves room for "units." in the name of its attribute
+        if (name.empty() || name.size() > longest_channel || name.find('\0') != std::string::npos)
+            throw InputError{place, "channel \"" + name + "\" has a name that OpenEXR cannot hold",
+                             "use 1 to 240 bytes"};
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        if (const std::string unit = unit_of(name); !unit.empty())
+            add_text(header, "units." + name, unit, place);
+    }
+    for (const auto& [name, text] : layout.header)
+        if (name != "chromaticities" && name != "whiteLuminance")
+            add_text(header, name, text, place);
+    return header;
+}
+
+} // namespace
+
+struct ExrWriter::State {
+    State(const std::filesystem::path& file, const Imf::Header& header)
+        : stream(file), output(std::in_place, stream, header, 0)
+    {
+        stream.flush();
+    }
+    FileStream stream;
+    std::optional<Imf::TiledOutputFile> output;
+};
+
+ExrWriter::ExrWriter(const std::filesystem::path& file, const Picture& layout, int tile_size, bool any_order)
+{
+    constexpr int largest_tile = 4096;
+    if (tile_size < 1 || tile_size > largest_tile)
+        throw InputError{file.string(), "tile size is " + std::to_string(tile_size) + ", expected 1 to 4096 pixels"};
+    state_ = std::make_unique<State>(file, header_of(layout, tile_size, any_order, file.string()));
+}
+
+ExrWriter::~ExrWriter() = default;
+
+void ExrWriter::write_tile(int x, int y, const Picture& from, int from_x, int from_y)
+{
+    Imf::FrameBuffer buffer;
+    for (const auto& [name, values] : from.channels)
+        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, values.data(), {from_x, from_y}, from.width, from.height));
+    const auto side_x = static_cast<int>(state_->output->tileXSize()),
+               side_y = static_cast<int>(state_->output->tileYSize());
+    state_->output->setFrameBuffer(buffer);
+    state_->output->writeTile(x / side_x, y / side_y);
+    state_->stream.flush();
+}
+
+void ExrWriter::close()
+{
+    state_->output.reset();
+    state_->stream.finish();
+}
+
+} // namespace lightwell

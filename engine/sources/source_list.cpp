@@ -1,0 +1,204 @@
+#include "engine/sources/source_list.h"
+
+#include "engine/base/frame.h"
+#include "engine/base/random.h"
+#include "engine/geometry/triangulate.h"
+#include "engine/scene/expansion.h"
+
+namespace lightwell {
+namespace {
+
+/// Wider distant sources are part of the sky: one sample a point cannot tell their brightness.
+constexpr double widest_sun_deg = 12;
+
+std::uint64_t place_key(std::uint64_t path, std::uint32_t surface)
+{
+    return mix_bits(path, surface);
+}
+
+bool is_rectangle(const std::vector<Point>& p)
+{
+    if (p.size() != 4)
+        return false;
+    const Vec3 a = p[1] - p[0], b = p[3] - p[0];
+    const double slack = 1e-9 * length(a) * length(b);
+    return length(p[2] - p[1] - b) <= 1e-9 * length(b) && std::fabs(dot(a, b)) <= slack && slack > 0;
+}
+
+void add_triangle(FlatEmitter& emitter, const Point& a, const Point& b, const Point& c)
+{
+    const double area = 0.5 * length(cross(b - a, c - a));
+    if (!(area > 0))
+        return;
+    emitter.corners.insert(emitter.corners.end(), {a, b, c});
+    emitter.summed_area.push_back((emitter.summed_area.empty() ? 0 : emitter.summed_area.back()) + area);
+}
+
+/// A mirrored map turns a triangle's order of corners round; the front must stay where it was.
+FlatEmitter flat_emitter(const std::vector<Point>& corners, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                         bool mirrored)
+{
+    FlatEmitter emitter;
+    for (const auto& t : triangles)
+        add_triangle(emitter, corners[t[0]], corners[t[mirrored ? 2 : 1]], corners[t[mirrored ? 1 : 2]]);
+    return emitter;
+}
+
+FlatEmitter polygon_emitter(const Part& part, const Polygon& polygon, const Affine& to_world)
+{
+    std::vector<Point> corners;
+    for (std::uint32_t i = 0; i < polygon.count; ++i)
+        corners.push_back(to_world.point(part.points[polygon.first + i]));
+    const bool mirrored = to_world.determinant() < 0;
+    if (is_rectangle(corners)) {
+        FlatEmitter emitter;
+        emitter.rectangle = true;
+        emitter.corners = {corners[0], corners[mirrored ? 3 : 1], corners[mirrored ? 1 : 3]};
+        emitter.summed_area = {length(cross(corners[1] - corners[0], corners[3] - corners[0]))};
+        return emitter;
+    }
+    return flat_emitter(corners, triangulate(corners.data(), corners.size()), mirrored);
+}
+
+FlatEmitter mesh_emitter(const Mesh& mesh, const Affine& to_world)
+{
+    std::vector<Point> corners;
+    for (const Point& p : mesh.points)
+        corners.push_back(to_world.point(p));
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
+        triangles.push_back({mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+    return flat_emitter(corners, triangles, to_world.determinant() < 0);
+}
+
+} // namespace
+
+SourceSample SunSource::sample(UnitSquare u) const noexcept
+{
+    const SampledDirection d = uniform_cone(disc.to_source, 0.5 * disc.full_angle_deg * radians_per_degree, u);
+    return {d.direction, infinity, d.density_per_sr, radiance};
+}
+
+double SunSource::density_per_sr(const Direction& direction) const noexcept
+{
+    const Vec3 apart = direction - disc.to_source;
+    const double half = 0.5 * disc.full_angle_deg * radians_per_degree, chord = 2 * std::sin(0.5 * half);
+    return dot(apart, apart) <= chord * chord ? 1 / cone_solid_angle_sr(half) : 0;
+}
+
+/// Walks the instances; prototypes without emitters are walked once and then skipped.
+struct SourceList::Finder {
+    const Scene& scene;
+    SourceList& list;
+    std::vector<char> may_emit; ///< by prototype
+
+    Finder(const Scene& s, SourceList& l) : scene(s), list(l)
+    {
+        for (const Part& part : scene.prototypes)
+            may_emit.push_back(part_may_emit(part));
+    }
+    bool part_may_emit(const Part& part) const
+    {
+        for (const Surface& surface : part.surfaces) {
+            if (surface.shape == Shape::instance) {
+                const Instance& instance = part.instances[surface.index];
+                if (may_emit[instance.prototype])
+                    return true;
+                continue;
+            }
+            const Material* material = resolve(scene, surface.modifier).material;
+            const bool inherited =
+                surface.modifier != void_modifier &&
+                std::holds_alternative<Inherited>(scene.modifiers[static_cast<std::size_t>(surface.modifier)].what);
+            if (inherited || (material != nullptr && is_emitter(*material)))
+                return true;
+        }
+        return false;
+    }
+    struct Place {
+        const Place* outer;
+        const std::vector<Binding>* bindings;
+    };
+    void walk(const Part& part, const Affine& to_world, std::uint64_t path, const Place* place)
+    {
+        for (std::uint32_t i = 0; i < part.surfaces.size(); ++i) {
+            const Surface& surface = part.surfaces[i];
+            if (surface.shape == Shape::instance) {
+                const Instance& instance = part.instances[surface.index];
+                const Place inner{place, &instance.bindings};
+                if (may_emit[instance.prototype])
+                    walk(scene.prototypes[instance.prototype], compose(to_world, instance.to_parent),
+                         instance_path(path, i), &inner);
+                continue;
+            }
+            ModifierId modifier = surface.modifier;
+            for (const Place* p = place; p != nullptr; p = p->outer)
+                modifier = bound_modifier(scene, modifier, *p->bindings);
+            const Material* material = resolve(scene, modifier).material;
+            if (surface.shape != Shape::source && material != nullptr && is_emitter(*material) &&
+                !emitted_radiance(*material).is_black())
+                add(part, surface, to_world, *material, place_key(path, i));
+        }
+    }
+    void add(const Part& part, const Surface& surface, const Affine& to_world, const Material& material,
+             std::uint64_t key)
+    {
+        const double scale = similarity_scale(to_world);
+        const auto keep = [&](LocalSource::Shape shape) {
+            list.lamp_by_place_[key] = static_cast<int>(list.lamps_.size());
+            list.lamps_.emplace_back(std::move(shape), material);
+        };
+        if (surface.shape == Shape::polygon || surface.shape == Shape::mesh) {
+            FlatEmitter emitter = surface.shape == Shape::polygon
+                                      ? polygon_emitter(part, part.polygons[surface.index], to_world)
+                                      : mesh_emitter(*part.meshes[surface.index], to_world);
+            if (!emitter.summed_area.empty())
+                keep(std::move(emitter));
+            return;
+        }
+        // Round shapes under a map that is no similarity are not aimed at: scattered rays find them.
+        if (!(scale > 0))
+            return;
+        if (surface.shape == Shape::sphere) {
+            const Sphere& s = part.spheres[surface.index];
+            keep(SphereEmitter{{to_world.point(s.centre), s.radius * scale}});
+        } else if (surface.shape == Shape::ring) {
+            const Ring& r = part.rings[surface.index];
+            keep(RingEmitter{{to_world.point(r.centre), transform_normal(to_world, r.normal), r.inner_radius * scale,
+                              r.outer_radius * scale}});
+        } else if (surface.shape != Shape::bubble) {
+            const Cone& c = part.cones[surface.index];
+            keep(ConeEmitter{
+                {{to_world.point(c.ends[0]), to_world.point(c.ends[1])}, {c.radii[0] * scale, c.radii[1] * scale}},
+                surface.shape == Shape::cup || surface.shape == Shape::tube});
+        }
+    }
+};
+
+SourceList::SourceList(const Scene& scene)
+{
+    Finder finder(scene, *this);
+    finder.walk(scene.root, Affine{}, 0, nullptr);
+    std::vector<const Surface*> wide;
+    for (const Surface& surface : scene.root.surfaces) {
+        if (surface.shape != Shape::source)
+            continue;
+        const DistantSource& source = scene.root.sources[surface.index];
+        const Spectrum radiance = distant_radiance(scene, source, surface.modifier, source.to_source);
+        if (source.full_angle_deg > widest_sun_deg)
+            wide.push_back(&surface);
+        else if (!radiance.is_black())
+            suns_.push_back({source, radiance});
+    }
+    sky_ = SkySource(scene, wide);
+    if (!sky_.empty())
+        portals_ = Portals(scene);
+}
+
+int SourceList::lamp_at(const Hit& hit) const noexcept
+{
+    const auto found = lamp_by_place_.find(place_key(hit.path, hit.surface));
+    return found == lamp_by_place_.end() ? -1 : found->second;
+}
+
+} // namespace lightwell

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "engine/accel/ray_queries.h"
+#include "engine/sources/local_source.h"
+#include "engine/sources/portals.h"
+#include "engine/sources/sky_source.h"
+
+#include <unordered_map>
+#include <vector>
+
+namespace lightwell {
+
+/// A narrow distant source: sampled as its disc.
+struct SunSource {
+    DistantSource disc;
+    Spectrum radiance;
+    SourceSample sample(UnitSquare u) const noexcept;
+    double density_per_sr(const Direction& direction) const noexcept; ///< 0 outside the disc
+};
+
+/// Everything that sends light: lamps at finite distance (inside instances too), suns, and the sky.
+class SourceList {
+public:
+    explicit SourceList(const Scene& scene);
+
+    const std::vector<LocalSource>& lamps() const noexcept { return lamps_; }
+    const std::vector<SunSource>& suns() const noexcept { return suns_; }
+    const SkySource& sky() const noexcept { return sky_; }
+    const Portals& portals() const noexcept { return portals_; }
+
+    /// The lamp that a ray has met; -1 when it is none that shadow rays aim at.
+    int lamp_at(const Hit& hit) const noexcept;
+    bool any() const noexcept { return !lamps_.empty() || !suns_.empty() || !sky_.empty(); }
+
+private:
+    struct Finder;
+    std::vector<LocalSource> lamps_;
+    std::vector<SunSource> suns_;
+    SkySource sky_;
+    Portals portals_;
+    std::unordered_map<std::uint64_t, int> lamp_by_place_;
+};
+
+} // namespace lightwell

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "importers/layers.h"
+
+#include <string>
+#include <vector>
+
+namespace lightwell {
+
+/// What a layer map decides for one modifier of an import.
+struct Choice {
+    enum class Kind {
+        material,  ///< surfaces get `definition`
+        dropped,   ///< surfaces are left out
+        inherited, ///< a place-holder that stays one
+        settled    ///< no key of the import: an entry that is complete already
+    } kind = Kind::material;
+    std::string name;                        ///< of the material in the scene
+    const Material* definition = nullptr;    ///< of the library or of Imported::file_materials
+    EmissionSide side = EmissionSide::front; ///< for emitters
+};
+
+/// One choice for each modifier of the scene. Notes what has no rule and what had no effect.
+/// @throws InputError for an unknown material or a rule that matches nothing
+std::vector<Choice> choose_materials(Imported& imported, const LayerMap& map);
+
+} // namespace lightwell

@@ -1,0 +1,106 @@
+#pragma once
+
+#include "engine/scene/surface.h"
+#include "importers/dxf/drawing.h"
+
+#include <span>
+#include <vector>
+
+namespace lightwell::dxf {
+
+/// How far the surfaces of an entity are from what was drawn, in drawing units.
+struct Deviations {
+    std::size_t chords = 0; ///< flat facets that stand for arcs
+    double chord_error = 0; ///< largest distance between arc and facets
+    std::size_t split_quads = 0;
+    double out_of_plane = 0; ///< largest distance of a corner from the mean plane of its four corners
+};
+
+/// The surfaces of one entity, in the frame of the model or block it is drawn in and in drawing units. Reused from
+/// entity to entity.
+class Shapes {
+public:
+    void clear();
+    bool empty() const { return sizes_.empty() && cones.empty() && rings.empty(); }
+
+    /// Any number of corners in one plane; equal neighbours are merged, and nothing is added when no area is left.
+    void add_polygon(std::vector<Point> corners);
+    /// Four corners that may be out of plane (then two triangles along the shorter diagonal) or cross (then the two
+    /// triangles that meet at the crossing).
+    void add_quad(const Point& a, const Point& b, const Point& c, const Point& d);
+    /// The side of a cylinder with its axis from one end to the other.
+    void add_cylinder(const Point& from, const Point& to, double radius, Shape cylinder_or_tube);
+    /// The flat ends of a cylinder or tube, facing away from each other.
+    void add_caps(const Point& centre, const Vec3& height, double inner_radius, double outer_radius);
+
+    std::size_t polygon_count() const { return sizes_.size(); }
+    /// Calls use(corners) for each polygon.
+    template <class Use>
+    void for_each_polygon(Use use) const
+    {
+        std::size_t at = 0;
+        for (const std::uint32_t size : sizes_) {
+            use(std::span<const Point>{points_.data() + at, size});
+            at += size;
+        }
+    }
+
+    std::vector<std::pair<Cone, Shape>> cones;
+    std::vector<Ring> rings;
+    Deviations deviations;
+
+private:
+    std::vector<Point> points_;
+    std::vector<std::uint32_t> sizes_;
+};
+
+/// Why an entity has no surfaces.
+struct SkipReason {
+    const char* text;
+    bool loses_surfaces = false; ///< it would have some if it were modelled: a note says so
+};
+/// nullptr: the entity has surfaces.
+using Reason = const SkipReason*;
+inline constexpr SkipReason no_area{"it has no area"};
+inline constexpr SkipReason thin{"no thickness and no width: a line has no area"};
+
+/// The numbers of one entity by group code.
+class Fields {
+public:
+    explicit Fields(std::span<const Value> values) : values_(values) {}
+    /// The first value of that code.
+    double get(int code, double otherwise = 0) const;
+    int flags(int code) const { return static_cast<int>(get(code)); }
+    /// Groups code, code + 10, code + 20.
+    Vec3 point(int code, const Vec3& otherwise = {}) const;
+    bool has(int code) const;
+    Vec3 extrusion() const { return point(210, {0, 0, 1}); }
+
+private:
+    std::span<const Value> values_;
+};
+
+/// Adds the surfaces of an entity that is not an INSERT.
+/// @param chord_tolerance  > 0, drawing units
+/// @return the reason when there are none
+/// @throws InputError: a vertex index out of range
+Reason add_shapes(const Drawing& drawing, const Entity& entity, double chord_tolerance, Shapes& shapes);
+
+// One function for each family of entities, called by add_shapes().
+Reason add_face(const Fields& fields, Shapes& shapes);
+Reason add_solid(const Fields& fields, Shapes& shapes);
+Reason add_polyface(const Drawing& drawing, const Entity& entity, Shapes& shapes);
+Reason add_polygon_mesh(const Drawing& drawing, const Entity& entity, Shapes& shapes);
+Reason add_lwpolyline(std::span<const Value> values, double chord_tolerance, Shapes& shapes);
+/// A POLYLINE in one plane.
+Reason add_flat_polyline(std::span<const Value> values, double chord_tolerance, Shapes& shapes);
+
+/// The values of a POLYLINE before its vertices, and those of each vertex.
+struct VertexList {
+    explicit VertexList(std::span<const Value> values);
+    Fields header;
+    std::vector<std::span<const Value>> vertices; ///< without the leading vertex_begins
+    std::vector<std::uint64_t> places;
+};
+
+} // namespace lightwell::dxf

@@ -1,0 +1,12 @@
+# Compiles library/*.toml into the program as one array of texts, in the order of the names; sets LIBRARY_TEXT_SOURCE.
+file(GLOB texts CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.toml)
+list(SORT texts)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${texts})
+set(LIBRARY_TEXTS "")
+foreach(text ${texts})
+    cmake_path(GET text FILENAME name)
+    file(READ ${text} content)
+    string(APPEND LIBRARY_TEXTS "    {\"${name}\", R\"~toml~(${content})~toml~\"},\n")
+endforeach()
+set(LIBRARY_TEXT_SOURCE ${CMAKE_CURRENT_BINARY_DIR}/library_text.cpp)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/library_text.cpp.in ${LIBRARY_TEXT_SOURCE} @ONLY)

@@ -1,0 +1,72 @@
+#include "importers/layers.h"
+#include "engine/base/files.h"
+#include "importers/formats/formats.h"
+#include "plugins/cli/layer_table.h"
+#include "plugins/cli/options.h"
+#include "plugins/cli/subcommands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <iostream>
+
+namespace lightwell {
+namespace {
+
+struct LayersOptions {
+    std::string drawing, map, proposal;
+    ImportWords import;
+    bool json = false, strict = false;
+};
+
+constexpr const char* examples = R"(Examples:
+  lightwell layers house.dxf                          what is in the file, and a guess at what it is made of
+  lightwell layers house.dxf --propose map.toml       the guess as a layer map to correct
+  lightwell layers house.dxf --map map.toml --strict  is every layer mapped?
+  lightwell layers house.glb --json                   for programs
+Every entity of the file is accounted for: made into surfaces, or skipped for a reason that is named.)";
+
+bool lacks_material(const LayersOptions& options, const Imported& imported, const std::vector<LayerSummary>& layers)
+{
+    if (!options.map.empty())
+        return imported.report.has(Finding::unmapped);
+    return std::any_of(layers.begin(), layers.end(), [](const LayerSummary& layer) { return layer.material.empty(); });
+}
+
+Status layers(const LayersOptions& options, std::ostream& out, std::ostream& err)
+{
+    Imported imported = import_file(options.drawing, import_options(options.import));
+    if (!options.proposal.empty())
+        write_text_atomically(options.proposal, propose_layer_map(imported));
+    const bool assigned = !options.map.empty();
+    if (assigned)
+        apply_layer_map(imported, read_layer_map(options.map));
+    const std::vector<LayerSummary> summary = summarize_layers(imported);
+    if (options.json) {
+        print_layer_json(options.drawing, imported, summary, assigned, out);
+    } else {
+        print_layer_table(imported, summary, assigned, out);
+        err << imported.report;
+    }
+    return options.strict && lacks_material(options, imported, summary) ? Status::no : Status::done;
+}
+
+} // namespace
+
+/// lightwell layers DRAWING [--map FILE] [--strict]: each layer's surfaces, area (m^2) and material.
+/// Status 1 with --strict when a layer has no material.
+void add_layers(CLI::App& app, Status& status)
+{
+    auto options = std::make_shared<LayersOptions>();
+    CLI::App& command = *app.add_subcommand("layers", "what a CAD file holds: layers, surfaces, areas, materials");
+    command.add_option("drawing", options->drawing, "CAD file: .dxf, .obj, .gltf, .glb")->required();
+    command.add_option("--map", options->map, "layer map (TOML): shows the materials it assigns")->type_name("FILE");
+    command.add_option("--propose", options->proposal, "writes a first layer map, to be corrected")->type_name("FILE");
+    command.add_flag("--json", options->json, "for programs, on standard output");
+    command.add_flag("--strict", options->strict, "status 1 when a layer has no material");
+    add_import_words(command, options->import);
+    command.footer(examples);
+    command.callback([options, &status] { status = layers(*options, std::cout, std::cerr); });
+}
+
+} // namespace lightwell

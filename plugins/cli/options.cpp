@@ -1,0 +1,95 @@
+#include "plugins/cli/options.h"
+
+#include "engine/base/text.h"
+#include "importers/units.h"
+#include "plugins/cli/scene_input.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lightwell {
+
+void add_import_words(CLI::App& command, ImportWords& words)
+{
+    command
+        .add_option("--unit", words.unit, "unit of the drawing, when the file is silent or wrong: mm, m, in, ft, ...")
+        ->type_name("UNIT");
+    command.add_option("--up", words.up, "axis that points up in the file: y or z")->check(CLI::IsMember({"y", "z"}));
+}
+
+ImportOptions import_options(const ImportWords& words)
+{
+    ImportOptions options;
+    if (!words.unit.empty())
+        options.metres_per_unit = parse_unit(words.unit).value;
+    options.up = words.up;
+    return options;
+}
+
+void add_sky_words(CLI::App& command, SkyWords& words)
+{
+    command
+        .add_option("--sky", words.type,
+                    "adds a CIE sky: clear, clear-no-sun, intermediate, intermediate-no-sun, overcast, uniform")
+        ->check(CLI::IsMember(sky_names()))
+        ->type_name("TYPE");
+    command.add_option("--place", words.place, "latitude,longitude in degrees, north and east positive: 52.5,13.4")
+        ->type_name("LAT,LON");
+    command.add_option("--time", words.time, "moment with its offset from UTC: 2026-03-21T12:00+01:00")
+        ->type_name("ISO");
+    command.add_option("--north", words.north_deg, "direction of north, degrees counter-clockwise from +y (default 0)")
+        ->type_name("DEG");
+    command.add_option("--turbidity", words.turbidity, "of the air (default 2.45)")->check(CLI::Range(1.0, 12.0));
+    command.add_option("--ground", words.ground_reflectance, "reflectance of the ground outside (default 0.2)")
+        ->check(CLI::Range(0.0, 1.0));
+}
+
+void add_scene_words(CLI::App& command, SceneWords& words)
+{
+    command.add_option("scene", words.file, "scene description (.rad) or CAD file (.dxf, .obj, .gltf, .glb)")
+        ->required();
+    command.add_option("--map", words.map, "layer map (TOML): which layer is made of what")->type_name("FILE");
+    add_import_words(command, words.import);
+    add_sky_words(command, words.sky);
+}
+
+void add_effort_words(CLI::App& command, EffortWords& words, double accuracy)
+{
+    words.accuracy = accuracy;
+    command
+        .add_option_function<std::string>(
+            "--accuracy", [&words](const std::string& text) { words.accuracy = parse_accuracy(text); },
+            "wanted standard error, relative, as median over the result: 5% or 0.05 (default " + shortest(accuracy) +
+                ")")
+        ->type_name("PERCENT");
+    command.add_option("--samples", words.samples, "paths per pixel or sensor, instead of an accuracy")
+        ->check(CLI::Range(1, 1 << 24))
+        ->type_name("N");
+    command.add_option("--seed", words.seed, "of the random numbers; the same seed gives the same bits (default 1)")
+        ->type_name("N");
+    command.add_option("--threads", words.threads, "0: all processors; the result does not depend on it")
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N");
+}
+
+double parse_accuracy(const std::string& text)
+{
+    const bool percent = !text.empty() && text.back() == '%';
+    const auto number = parse_double(percent ? std::string_view(text).substr(0, text.size() - 1) : text);
+    const double accuracy = number ? *number / (percent ? 100 : 1) : -1;
+    if (!(accuracy > 0 && accuracy < 1))
+        throw CLI::ValidationError("--accuracy", "\"" + text + "\" is no accuracy; expected 5% or 0.05, below 100%");
+    return accuracy;
+}
+
+std::pair<int, int> parse_size(const std::string& text)
+{
+    constexpr long long most = 32768; // beyond any screen and plotter; what the simulation takes
+    const auto parts = split(text, "x");
+    const auto width = parts.size() == 2 ? parse_integer(parts[0]) : std::nullopt;
+    const auto height = parts.size() == 2 ? parse_integer(parts[1]) : std::nullopt;
+    if (!width || !height || *width < 1 || *height < 1 || *width > most || *height > most)
+        throw CLI::ValidationError("--size", "\"" + text + "\" is no size; expected WIDTHxHEIGHT, for example 960x540");
+    return {static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+} // namespace lightwell

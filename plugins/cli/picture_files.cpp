@@ -1,0 +1,136 @@
+#include "plugins/cli/picture_files.h"
+
+#include "engine/base/errors.h"
+#include "engine/base/text.h"
+#include "engine/pictures/exr.h"
+#include "engine/pictures/png.h"
+#include "engine/pictures/rgbe.h"
+#include "plugins/cli/provenance.h"
+#include "plugins/cli/scene_hash.h"
+#include "plugins/cli/terminal.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+
+namespace lightwell {
+namespace {
+
+/// The channels of a finished tile, so that the partial file has a place for each.
+constexpr std::array<const char*, 13> channel_names{
+    "R",       "G",       "B",       "illuminance.Y",      "Z", "N.X", "N.Y", "N.Z", "error.R",
+    "error.G", "error.B", "error.Y", "error.illuminance.Y"};
+constexpr const char* channel_units =
+    "R, G, B: W/(m^2 sr), 179 lm/W; illuminance.Y: lx on the first surface, viewer's side; Z: m along the ray; "
+    "N: unit normal, world; error: one standard error, R, G, B in W/(m^2 sr), Y in cd/m^2, illuminance.Y in lx";
+
+std::string hexadecimal(std::uint64_t bits)
+{
+    char text[20];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(bits));
+    return text;
+}
+
+/// Everything that determines the pixels: a partial file goes on only when all of it agrees.
+std::string settings_text(const Simulation& simulation, const PictureJob& job)
+{
+    const PictureSettings& s = job.settings;
+    const std::string effort =
+        s.samples > 0 ? "samples " + std::to_string(s.samples) : "accuracy " + shortest(s.accuracy);
+    return "size " + std::to_string(s.width) + "x" + std::to_string(s.height) + ", " + effort + ", seed " +
+           std::to_string(s.seed) + ", scene " + hexadecimal(scene_hash(simulation.scene())) + ", view " +
+           to_text(job.view) + ", " + program_version();
+}
+
+std::map<std::string, std::string> picture_header(const Simulation& simulation, const PictureJob& job)
+{
+    std::map<std::string, std::string> header = job.provenance;
+    header["VIEW"] = to_text(job.view);
+    header["software"] = program_version();
+    header["settings"] = settings_text(simulation, job);
+    header["seed"] = std::to_string(job.settings.seed);
+    header["units"] = channel_units;
+    return header;
+}
+
+PictureResult render_tiles(const Simulation& simulation, const PictureJob& job, GrowingPicture& growing,
+                           ProgressLine& line)
+{
+    const TileStore store{
+        [&](const Tile& tile) { return growing.stored(tile.x, tile.y); },
+        [&](const Tile& tile, const Picture& pixels) { growing.put(tile.x, tile.y, pixels); },
+    };
+    return simulation.render(job.view, job.settings, line.progress(), store);
+}
+
+void write_companions(const PictureResult& result, const PictureJob& job)
+{
+    if (job.png)
+        write_png(tone_mapped(result.picture), std::filesystem::path(job.file).replace_extension(".png"));
+    if (job.hdr)
+        write_rgbe(result.picture, std::filesystem::path(job.file).replace_extension(".hdr"));
+    RunRecord record;
+    record.seconds = result.seconds;
+    record.threads = job.settings.threads;
+    record.samples = result.samples;
+    record.wanted_accuracy = job.settings.accuracy;
+    record.median_relative_error = result.median_relative_error;
+    record.more = result.picture.header;
+    record.report = job.report;
+    write_run_record(job.file, record);
+}
+
+std::string picture_line(const PictureResult& result, const PictureJob& job)
+{
+    char text[160];
+    std::snprintf(text, sizeof text, ": %d x %d, %d samples per pixel, median standard error %.2g %%, ",
+                  result.picture.width, result.picture.height, result.samples, result.median_relative_error * 100);
+    return job.file.string() + text + duration_text(result.seconds);
+}
+
+Status explain_interruption(const PictureJob& job, double fraction, std::ostream& err)
+{
+    char percent[16];
+    std::snprintf(percent, sizeof percent, "%.0f %%", fraction * 100);
+    err << "lightwell: interrupted at " << percent << "; finished tiles are in "
+        << std::filesystem::path(job.file).replace_extension(".partial.exr").string()
+        << "; run the same command again to go on\n";
+    return Status::no;
+}
+
+} // namespace
+
+void fit_to_view(const View& view, PictureSettings& settings)
+{
+    const double aspect = Camera(view).aspect();
+    const double width = std::fmin(settings.width, std::round(settings.height * aspect));
+    const double height = std::fmin(settings.height, std::round(settings.width / aspect));
+    settings.width = static_cast<int>(std::fmax(1, width));
+    settings.height = static_cast<int>(std::fmax(1, height));
+}
+
+Status make_picture(const Simulation& simulation, const PictureJob& job, std::ostream& out, std::ostream& err)
+{
+    Picture layout{job.settings.width, job.settings.height, {}, picture_header(simulation, job)};
+    for (const char* name : channel_names)
+        layout.channels[name];
+    ProgressLine line(job.file.filename().string());
+    GrowingPicture growing(job.file, layout, tile_size);
+    if (growing.resumed_tiles() > 0)
+        err << job.file.string() << ": going on after " << growing.resumed_tiles() << " finished tiles\n";
+    try {
+        PictureResult result = render_tiles(simulation, job, growing, line);
+        result.picture.header.insert(layout.header.begin(), layout.header.end());
+        result.picture.header["samples"] = std::to_string(result.samples);
+        result.picture.header["median_relative_error"] = shortest(result.median_relative_error);
+        growing.finish(result.picture);
+        write_companions(result, job);
+        out << picture_line(result, job) << '\n';
+    } catch (const Cancelled&) {
+        return explain_interruption(job, line.fraction(), err);
+    }
+    return Status::done;
+}
+
+} // namespace lightwell

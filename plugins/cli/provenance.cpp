@@ -1,0 +1,100 @@
+#include "plugins/cli/provenance.h"
+
+#include "engine/base/files.h"
+#include "engine/base/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <ctime>
+#include <thread>
+#include <unistd.h>
+
+namespace lightwell {
+namespace {
+
+/// The command line of this process: set once by main, read by every record.
+std::string& command_of_process()
+{
+    static std::string command;
+    return command;
+}
+
+/// A word as a shell would want it.
+std::string quoted(const std::string& word)
+{
+    if (!word.empty() && word.find_first_of(" \t\n\"'\\$`*?[]{}()<>|&;#!~") == std::string::npos)
+        return word;
+    std::string text(1, '\'');
+    for (const char c : word) {
+        if (c == '\'')
+            text += "'\\''";
+        else
+            text += c;
+    }
+    text += '\'';
+    return text;
+}
+
+std::string host_name()
+{
+    char name[256] = "";
+    return gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
+std::string utc_now()
+{
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+} // namespace
+
+std::string program_version()
+{
+    return "lightwell " LIGHTWELL_VERSION;
+}
+
+void remember_command(const std::vector<std::string>& arguments)
+{
+    std::string command = "lightwell";
+    for (std::size_t i = 1; i < arguments.size(); ++i)
+        command.append(" ").append(quoted(to_utf8(arguments[i])));
+    command_of_process() = command;
+}
+
+std::filesystem::path run_record_name(const std::filesystem::path& result)
+{
+    return std::filesystem::path(result).replace_extension(".run.json");
+}
+
+void write_run_record(const std::filesystem::path& result, const RunRecord& record)
+{
+    nlohmann::ordered_json json;
+    json["program"] = program_version();
+    json["command"] = command_of_process();
+    json["result"] = to_utf8(result.filename().string());
+    json["finished"] = utc_now();
+    json["host"] = host_name();
+    json["processors"] = std::thread::hardware_concurrency();
+    json["threads"] = record.threads == 0 ? static_cast<int>(std::thread::hardware_concurrency()) : record.threads;
+    json["seconds"] = record.seconds;
+    json["samples"] = record.samples;
+    json["wanted_accuracy"] = record.wanted_accuracy;
+    json["median_relative_error"] = record.median_relative_error;
+    for (const auto& [name, value] : record.more)
+        json["settings"][name] = to_utf8(value);
+    json["notes"] = nlohmann::ordered_json::array();
+    for (const Note& note : record.report.notes())
+        json["notes"].push_back({{"finding", to_string(note.finding)},
+                                 {"place", to_utf8(note.place)},
+                                 {"text", to_utf8(note.text)},
+                                 {"count", note.count}});
+    write_text_atomically(run_record_name(result), json.dump(2) + "\n");
+}
+
+} // namespace lightwell

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "engine/base/report.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lightwell {
+
+/// "lightwell 0.1.0".
+std::string program_version();
+/// Keeps the command line for the records of this run; called once, at the start.
+void remember_command(const std::vector<std::string>& arguments);
+
+/// What varies from run to run and therefore stands beside a result, not in it: NAME.run.json.
+struct RunRecord {
+    double seconds = 0;
+    int threads = 0; ///< as asked; 0: all processors
+    int samples = 0;
+    double wanted_accuracy = 0;
+    double median_relative_error = 0;
+    std::map<std::string, std::string> more; ///< settings of the result, as in its header
+    Report report;
+};
+/// `room.exr` -> `room.run.json`.
+std::filesystem::path run_record_name(const std::filesystem::path& result);
+void write_run_record(const std::filesystem::path& result, const RunRecord& record);
+
+} // namespace lightwell

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "engine/simulate/simulate.h"
+
+#include <gtest/gtest.h>
+
+namespace lightwell {
+
+/// One sensor's illuminance with its standard error, lx.
+struct Found {
+    double value, error;
+};
+
+inline Found illuminance_at(const Simulation& simulation, const Sensor& sensor, int samples, std::uint64_t seed = 1)
+{
+    GridSettings settings;
+    settings.samples = samples;
+    settings.seed = seed;
+    SensorGrid grid;
+    grid.sensors = {sensor};
+    const GridResult result = simulation.illuminance(grid, settings);
+    return {result.values[0].value, result.standard_errors[0].value};
+}
+
+/// Eight replicates give a t distribution with 7 degrees of freedom: beyond 13.9 standard errors with probability
+/// 2.4e-6, a false alarm of the whole suite of some fifty such checks of about 1e-4.
+inline constexpr double interval = 13.9;
+
+/// The value agrees with the expected one, and was measured finely enough to notice a relative bias of `bias`.
+inline void expect_agrees(const Found& found, double expected, double bias, double reference_error = 1e-9)
+{
+    EXPECT_NEAR(found.value, expected, interval * found.error + reference_error * std::fabs(expected));
+    EXPECT_LE(interval * found.error, bias * std::fabs(expected)) << "too coarse to notice the bias it must catch";
+}
+
+} // namespace lightwell

@@ -1,0 +1,325 @@
+#!/usr/bin/env python3
+"""Calls the program `lightwell` (its path in the environment variable LIGHTWELL) as a user would."""
+
+import csv
+import json
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from scenes import OBJ, ROOM_RAD, VIEW, face_dxf
+
+PROGRAM = os.environ.get("LIGHTWELL", "build/release/lightwell")
+DONE, NO, USAGE, BAD_INPUT = 0, 1, 2, 3
+EXR_MAGIC = b"\x76\x2f\x31\x01"
+
+
+class Case(unittest.TestCase):
+    """Runs in a folder of its own with room.rad in it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.write("room.rad", ROOM_RAD)
+
+    def write(self, name, text):
+        mode = "wb" if isinstance(text, bytes) else "w"
+        with open(self.folder / name, mode) as file:
+            file.write(text)
+
+    def run_program(self, *words, timeout=120):
+        return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=timeout,
+                              errors="replace", stdin=subprocess.DEVNULL)
+
+    def expect(self, status, *words, says=()):
+        """The status, and each part of `says` in one line of the message on stderr."""
+        done = self.run_program(*words)
+        self.assertEqual(done.returncode, status, f"{words}\n{done.stdout}{done.stderr}")
+        for part in says:
+            self.assertIn(part, done.stderr)
+        return done
+
+    def files(self):
+        return sorted(p.name for p in self.folder.iterdir())
+
+
+class Usage(Case):
+    def test_wrong_usage_has_status_2_and_points_to_help(self):
+        for words in ((), ("paint",), ("render",), ("layers",), ("render", "room.rad", "--colour", "red"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--size", "0x10"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--size", "wide"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--accuracy", "0"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--accuracy", "nan"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--samples", "-5"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--sky", "pink")):
+            done = self.expect(USAGE, *words)
+            self.assertIn("--help", done.stderr, words)
+        self.assertEqual(self.files(), ["room.rad"])
+
+    def test_every_subcommand_explains_itself_with_an_example(self):
+        overview = self.expect(DONE, "--help").stdout
+        for name in ("layers", "import", "materials", "render", "illuminance", "run"):
+            self.assertIn(name, overview)
+            text = self.expect(DONE, name, "--help").stdout
+            self.assertIn("Example", text)
+            self.assertIn(f"lightwell {name}", text)
+
+    def test_the_version_is_one_line(self):
+        self.assertRegex(self.expect(DONE, "--version").stdout, r"^lightwell \d+\.\d+\.\d+\n$")
+
+    def test_materials_are_listed_and_an_unknown_one_is_a_no(self):
+        listed = json.loads(self.expect(DONE, "materials", "--json").stdout)
+        self.assertGreater(len(listed), 10)
+        for entry in listed:
+            self.assertTrue(entry["name"] and entry["type"] and entry["source"], entry)
+            self.assertTrue(all(0 <= channel <= 1 for channel in entry["reflectance"]), entry)
+        self.expect(NO, "materials", "no_such_material_*", says=["no_such_material_"])
+
+
+class BadInput(Case):
+    RENDER = ("--view", VIEW, "-o", "out.exr", "--samples", "1", "--size", "16x16")
+
+    def rejected(self, *words, says):
+        done = self.expect(BAD_INPUT, *words, says=says)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        self.assertEqual([f for f in self.files() if f.startswith("out")], [])
+
+    def test_a_missing_file_a_folder_and_an_unreadable_file(self):
+        self.rejected("layers", "none.dxf", says=["none.dxf"])
+        self.rejected("render", "none.rad", *self.RENDER, says=["none.rad"])
+        (self.folder / "folder.dxf").mkdir()
+        self.rejected("layers", "folder.dxf", says=["folder.dxf"])
+        if os.geteuid() != 0:  # root reads everything
+            self.write("closed.dxf", face_dxf(["A"]))
+            os.chmod(self.folder / "closed.dxf", 0)
+            self.rejected("layers", "closed.dxf", says=["closed.dxf"])
+
+    def test_a_file_of_no_known_format(self):
+        self.write("noise.bin", bytes(range(256)) * 16)
+        self.rejected("layers", "noise.bin", says=["noise.bin"])
+
+    def test_truncated_files(self):
+        dxf = face_dxf(["A", "B", "C"])
+        self.write("cut.dxf", dxf[:-60])
+        self.rejected("layers", "cut.dxf", says=["cut.dxf"])
+        self.write("cut.rad", ROOM_RAD[:-12])
+        self.rejected("render", "cut.rad", *self.RENDER, says=["cut.rad"])
+        self.write("cut.glb", b"glTF\x02\x00\x00\x00\x00\x10\x00\x00")
+        self.rejected("layers", "cut.glb", says=["cut.glb"])
+
+    def test_a_map_with_an_unknown_material_names_near_ones(self):
+        self.write("a.dxf", face_dxf(["A"]))
+        self.write("map.toml", '[[rule]]\nlayer = "A"\nuse = "gras_single"\n')
+        self.rejected("layers", "a.dxf", "--map", "map.toml", says=["map.toml", "gras_single", "glass"])
+
+    def test_a_map_rule_that_matches_nothing(self):
+        self.write("a.dxf", face_dxf(["A"]))
+        self.write("map.toml", 'default = "white_paint"\n[[rule]]\nlayer = "NONE-*"\nuse = "void"\n')
+        self.rejected("layers", "a.dxf", "--map", "map.toml", says=["map.toml", "NONE-*"])
+
+    def test_a_map_that_is_no_toml_or_missing(self):
+        self.write("a.dxf", face_dxf(["A"]))
+        self.write("map.toml", "[[rule]\n")
+        self.rejected("layers", "a.dxf", "--map", "map.toml", says=["map.toml"])
+        self.rejected("layers", "a.dxf", "--map", "gone.toml", says=["gone.toml"])
+
+    def test_impossible_materials_and_numbers_that_are_none(self):
+        for name, text, value in (
+                ("bright.rad", ROOM_RAD.replace("0.5 0.5 0.5 0 0", "1.5 0.5 0.5 0 0"), "1.5"),
+                ("nan.rad", ROOM_RAD.replace("4 3 2.5  4 0 2.5", "4 nan 2.5  4 0 2.5"), "nan.rad"),
+                ("unknown.rad", ROOM_RAD + "marble polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n", "marble"),
+                ("dark.rad", ROOM_RAD.replace("void light lamp 0 0 3 20 20 20", "void plastic lamp 0 0 5 0 0 0 0 0"),
+                 "emits")):
+            self.write(name, text)
+            self.rejected("render", name, *self.RENDER, says=[name, value])
+
+    def test_views_that_show_nothing(self):
+        for view in ("-vp 1 1 1 -vd 0 0 1 -vu 0 0 1", "-vp 1 1 1 -vd 0 0 0", "-vp 1 1 1 -vd 0 1 0 -vh 400",
+                     "-vp nan 1 1 -vd 0 1 0", "-vp 1 1", "-vq 1", "kitchen"):
+            self.rejected("render", "room.rad", "--view", view, "-o", "out.exr", says=["-v"])
+
+    def test_grids_that_measure_nothing(self):
+        for grid in ("layer:roof@0.8/0.5", "plane:0.8,0,0,4,3/0", "plane:0.8,0,0,4/0.5", "plane:0.8,0,0,4,3/nan",
+                     "file:none.txt", "everywhere", "plane:0.8,0,0,1e9,1e9/0.001"):
+            self.rejected("illuminance", "room.rad", "--grid", grid, "-o", "out.csv", says=[grid.removeprefix("file:")])
+
+    def test_a_sky_needs_a_place_and_a_time_with_an_offset(self):
+        self.write("a.dxf", face_dxf(["A"]))
+        base = ("render", "a.dxf", *self.RENDER, "--sky", "clear")
+        self.rejected(*base, says=["--place"])
+        self.rejected(*base, "--place", "52.5,13.4", says=["--time"])
+        self.rejected(*base, "--place", "52.5,13.4", "--time", "2026-03-21T12:00", says=["--time", "+01:00"])
+        self.rejected(*base, "--place", "52.5,13.4", "--time", "2026-02-30T12:00Z", says=["--time"])
+        self.rejected(*base, "--place", "-91,13.4", "--time", "2026-03-21T12:00Z", says=["--place", "-91"])
+
+    def test_a_result_in_a_folder_that_does_not_exist(self):
+        self.expect(BAD_INPUT, "render", "room.rad", "--view", VIEW, "-o", "gone/out.exr", "--size", "16x16",
+                    "--samples", "1", says=["gone"])
+        self.expect(BAD_INPUT, "illuminance", "room.rad", "--grid", "plane:0.8,0,0,4,3/1", "-o", "gone/out.csv",
+                    "--samples", "1", says=["gone"])
+
+
+class Layers(Case):
+    def test_json_lists_layers_with_areas_and_the_balance_of_entities(self):
+        self.write("a.dxf", face_dxf(["A-FLOR", "A-GLAZ"]))
+        found = json.loads(self.expect(DONE, "layers", "a.dxf", "--json").stdout)
+        self.assertEqual(list(found), ["file", "unit", "bounds_m", "entities", "layers", "notes"])
+        self.assertEqual([layer["name"] for layer in found["layers"]], ["A-FLOR", "A-GLAZ"])
+        for layer in found["layers"]:
+            self.assertEqual(list(layer), ["name", "surfaces", "area_m2", "material", "assigned"])
+            self.assertEqual((layer["surfaces"], layer["assigned"]), (1, False))
+            self.assertAlmostEqual(layer["area_m2"], 1.0, places=12)
+        self.assertEqual((found["entities"]["read"], found["entities"]["made"]), (2, 2))
+        self.assertEqual(found["bounds_m"], {"low": [0, 0, 0], "high": [3, 1, 0]})
+
+    def test_unit_and_up_override_what_the_file_says(self):
+        self.write("a.obj", OBJ)
+        found = json.loads(self.expect(DONE, "layers", "a.obj", "--json", "--unit", "mm", "--up", "z").stdout)
+        self.assertEqual(found["bounds_m"], {"low": [0, 0, 0], "high": [2, 1, 0.5]})
+        self.assertAlmostEqual(sum(layer["area_m2"] for layer in found["layers"]), 3.0, places=9)
+        self.expect(BAD_INPUT, "layers", "a.obj", "--unit", "furlongish", says=["furlongish", "mm"])
+
+    def test_the_proposed_map_can_be_used_at_once(self):
+        self.write("a.dxf", face_dxf(["A-FLOR", "A-WALL", "A-GLAZ"]))
+        self.expect(DONE, "layers", "a.dxf", "--propose", "map.toml")
+        found = json.loads(self.expect(DONE, "layers", "a.dxf", "--map", "map.toml", "--strict", "--json").stdout)
+        self.assertTrue(all(layer["assigned"] and layer["material"] for layer in found["layers"]), found)
+
+    def test_strict_is_a_no_when_a_layer_has_no_material(self):
+        self.write("a.dxf", face_dxf(["A-FLOR", "XQZ17"]))
+        self.write("map.toml", '[[rule]]\nlayer = "A-FLOR"\nuse = "white_paint"\n')
+        self.expect(DONE, "layers", "a.dxf", "--map", "map.toml", says=["XQZ17"])
+        self.expect(NO, "layers", "a.dxf", "--map", "map.toml", "--strict", says=["XQZ17"])
+
+    def test_import_writes_a_scene_that_can_be_lit(self):
+        self.write("a.dxf", face_dxf(["A-FLOR"]))
+        self.write("map.toml", 'default = "white_paint"\n')
+        self.expect(DONE, "import", "a.dxf", "--map", "map.toml", "--sky", "uniform", "--place", "52.5,13.4", "--time",
+                    "2026-03-21T12:00+01:00", "-o", "a.rad", "--flat")
+        self.expect(DONE, "illuminance", "a.rad", "--grid", "plane:1,0,0,1,1/0.5", "-o", "a.csv", "--samples", "64")
+        with open(self.folder / "a.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 4)
+
+
+class Outputs(Case):
+    def test_the_csv_agrees_with_the_closed_form_of_a_disc(self):
+        """E = pi L sin^2 on the axis of a uniform disc: L = 179 * 20 cd/m2, radius 0.5 m, 2 m above the point."""
+        self.write("disc.rad", "void light l 0 0 3 20 20 20\nl ring d 0 0 8 0 0 2 0 0 -1 0 0.5\n")
+        self.write("point.txt", "0 0 0 0 0 1\n")
+        self.expect(DONE, "illuminance", "disc.rad", "--grid", "file:point.txt", "-o", "e.csv", "--samples", "4096")
+        with open(self.folder / "e.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0]), ["x", "y", "z", "nx", "ny", "nz", "illuminance_lx", "error_lx"])
+        expected = math.pi * 179 * 20 * 0.25 / 4.25
+        self.assertLess(abs(float(rows[0]["illuminance_lx"]) - expected), 5 * float(rows[0]["error_lx"]) + 1e-6 * expected)
+        self.assertLess(float(rows[0]["error_lx"]), 0.02 * expected)
+
+    def test_a_map_is_written_in_all_formats_with_its_record(self):
+        self.expect(DONE, "illuminance", "room.rad", "--grid", "plane:0.8,0,0,4,3/1", "-o", "e.csv", "-o", "e.png", "-o",
+                    "e.exr", "--samples", "16")
+        self.assertEqual(self.files(), ["e.csv", "e.exr", "e.png", "e.run.json", "room.rad"])
+        self.assertEqual((self.folder / "e.exr").read_bytes()[:4], EXR_MAGIC)
+        self.assertEqual((self.folder / "e.png").read_bytes()[:4], b"\x89PNG")
+        self.assertEqual((self.folder / "e.csv").read_text().count("\n"), 13)
+        record = json.loads((self.folder / "e.run.json").read_text())
+        self.assertEqual(record["samples"], 16)
+        self.assertIn("lightwell illuminance room.rad --grid", record["command"])
+
+    def test_a_picture_is_written_with_its_companions_and_provenance(self):
+        self.expect(DONE, "render", "room.rad", "--view", VIEW, "-o", "p.exr", "--png", "--hdr", "--samples", "4",
+                    "--size", "64x64")
+        self.assertEqual(self.files(), ["p.exr", "p.hdr", "p.png", "p.run.json", "room.rad"])
+        header = (self.folder / "p.exr").read_bytes()[:4096]
+        for entry in (b"VIEW", b"settings", b"software", b"seed", b"units"):
+            self.assertIn(entry, header)
+        self.assertTrue((self.folder / "p.hdr").read_bytes().startswith(b"#?"))
+
+    def test_pixels_stay_square(self):
+        self.expect(DONE, "render", "room.rad", "--view", "-vp 2 1 1 -vd 0 1 0 -vh 90 -vv 90", "-o", "p.exr",
+                    "--samples", "1", "--size", "64x32")
+        record = json.loads((self.folder / "p.run.json").read_text())
+        self.assertIn("size 32x32", record["settings"]["settings"])
+
+    def test_the_wanted_accuracy_is_reached(self):
+        self.expect(DONE, "illuminance", "room.rad", "--grid", "plane:0.8,0,0,4,3/1", "-o", "e.csv", "--accuracy", "2%")
+        record = json.loads((self.folder / "e.run.json").read_text())
+        self.assertLess(record["median_relative_error"], 0.02 * 1.25)  # the pilot run itself is uncertain
+
+
+class Interruption(Case):
+    WORDS = ("render", "room.rad", "--view", VIEW, "-o", "p.exr", "--samples", "512", "--size", "320x240", "--seed", "7")
+
+    def interrupt(self, signal_number, wait_s):
+        """Sends the signal once tiles have been written."""
+        running = subprocess.Popen([PROGRAM, *self.WORDS], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        partial, deadline = self.folder / "p.partial.exr", time.monotonic() + wait_s
+        while time.monotonic() < deadline and running.poll() is None:
+            if partial.exists() and partial.stat().st_size > 100_000:
+                break
+            time.sleep(0.02)
+        running.send_signal(signal_number)
+        try:
+            return running, running.communicate(timeout=60)[1]
+        finally:
+            running.kill()
+
+    def test_ctrl_c_leaves_a_partial_picture_that_goes_on_to_the_same_bytes(self):
+        running, message = self.interrupt(signal.SIGINT, 60)
+        self.assertEqual(running.returncode, NO, message)
+        self.assertIn("p.partial.exr", message)
+        self.assertIn("run the same command again", message)
+        self.assertEqual(self.files(), ["p.partial.exr", "room.rad"])
+        self.assertEqual((self.folder / "p.partial.exr").read_bytes()[:4], EXR_MAGIC)
+        done = self.expect(DONE, *self.WORDS)
+        self.assertIn("going on after", done.stderr)
+        self.assertEqual(self.files(), ["p.exr", "p.run.json", "room.rad"])
+        resumed = (self.folder / "p.exr").read_bytes()
+        (self.folder / "p.exr").unlink()
+        self.expect(DONE, *self.WORDS)
+        self.assertEqual(resumed, (self.folder / "p.exr").read_bytes())
+
+    def test_a_killed_run_leaves_no_final_name_and_goes_on(self):
+        running, _ = self.interrupt(signal.SIGKILL, 60)
+        self.assertEqual(running.returncode, -signal.SIGKILL)
+        self.assertNotIn("p.exr", self.files())
+        self.expect(DONE, *self.WORDS)
+        self.assertIn("p.exr", self.files())
+
+    def test_a_partial_picture_of_other_settings_is_not_continued(self):
+        self.interrupt(signal.SIGINT, 60)
+        words = [word if word != "7" else "8" for word in self.WORDS]
+        done = self.run_program(*words)
+        self.assertNotIn("going on after", done.stderr)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+
+
+class Threads(Case):
+    def test_one_two_and_four_threads_give_the_same_bytes(self):
+        pictures, maps = set(), set()
+        for threads in ("1", "2", "4"):
+            self.expect(DONE, "render", "room.rad", "--view", VIEW, "-o", "p.exr", "--samples", "8", "--size", "96x72",
+                        "--threads", threads)
+            pictures.add((self.folder / "p.exr").read_bytes())
+            self.expect(DONE, "illuminance", "room.rad", "--grid", "plane:0.8,0,0,4,3/0.5", "-o", "e.csv", "--samples",
+                        "64", "--threads", threads)
+            maps.add((self.folder / "e.csv").read_bytes())
+        self.assertEqual((len(pictures), len(maps)), (1, 1))
+
+    def test_another_seed_gives_other_noise(self):
+        maps = set()
+        for seed in ("1", "2"):
+            self.expect(DONE, "illuminance", "room.rad", "--grid", "plane:0.8,0,0,4,3/1", "-o", "e.csv", "--samples", "16",
+                        "--seed", seed)
+            maps.add((self.folder / "e.csv").read_bytes())
+        self.assertEqual(len(maps), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,141 @@
+#include "importers/dxf/colours.h"
+#include "tests/unit/dxf/dxf_text.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
+
+namespace lightwell::test {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path folder = std::filesystem::path{LIGHTWELL_ROOT} / "tests/fixtures/dxf";
+constexpr double coordinate_within_m = 1e-9;
+
+json read_json(const std::filesystem::path& file)
+{
+    std::ifstream in{file};
+    EXPECT_TRUE(in.good()) << file;
+    return json::parse(in);
+}
+
+Imported imported_fixture(const std::string& name)
+{
+    return import_dxf(folder / (name + ".dxf"), {});
+}
+
+std::string text_of(const Report& report)
+{
+    std::ostringstream out;
+    out << report;
+    return out.str();
+}
+
+void expect_layers(const Imported& imported, const json& truth)
+{
+    auto found = layer_areas(imported);
+    for (const auto& [name, layer] : truth["layers"].items()) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(found[name].surfaces, layer["surfaces"].get<std::size_t>());
+        const double area = layer["area_m2"].get<double>();
+        EXPECT_NEAR(found[name].area_m2, area, layer["relative"].get<double>() * area);
+    }
+    EXPECT_EQ(found.size(), truth["layers"].size());
+}
+
+void expect_ledger(const Ledger& ledger, const json& truth)
+{
+    EXPECT_EQ(ledger.read_count(), truth["read"].get<std::size_t>());
+    EXPECT_EQ(ledger.made_count(), truth["made"].get<std::size_t>());
+    std::map<std::string, std::size_t> found, expected;
+    for (const Ledger::Skipped& line : ledger.skipped_list())
+        found[line.type + " | " + line.layer + " | " + line.reason] += line.count;
+    for (const json& line : truth["skipped"])
+        expected[line["type"].get<std::string>() + " | " + line["layer"].get<std::string>() + " | " +
+                 line["reason"].get<std::string>()] += line["count"].get<std::size_t>();
+    EXPECT_EQ(found, expected);
+}
+
+void expect_notes(const Report& report, const json& truth)
+{
+    for (const json& expected : truth["notes"]) {
+        bool found = false;
+        for (const Note& note : report.notes())
+            found |= to_string(note.finding) == expected["finding"] &&
+                     note.text.find(expected["contains"].get<std::string>()) != std::string::npos;
+        EXPECT_TRUE(found) << expected << "\n" << text_of(report);
+    }
+    EXPECT_EQ(report.notes().size(), truth["notes"].size()) << text_of(report);
+}
+
+class DxfFixture : public testing::TestWithParam<std::string> {};
+
+TEST_P(DxfFixture, HoldsTheSurfacesAreasBoundsAndEntitiesOfItsTruthFile)
+{
+    const json truth = read_json(folder / (GetParam() + ".truth.json"));
+    const Imported imported = imported_fixture(GetParam());
+    EXPECT_NO_THROW(validate(imported.scene));
+    EXPECT_EQ(imported.unit, truth["unit"].get<std::string>());
+    expect_layers(imported, truth);
+    expect_ledger(imported.ledger, truth);
+    expect_notes(imported.report, truth);
+    const Box box = exact_bounds(imported);
+    for (int axis = 0; axis < 3; ++axis) {
+        SCOPED_TRACE(axis);
+        EXPECT_NEAR(box.low[axis], truth["bounds_m"]["low"][static_cast<std::size_t>(axis)].get<double>(),
+                    coordinate_within_m);
+        EXPECT_NEAR(box.high[axis], truth["bounds_m"]["high"][static_cast<std::size_t>(axis)].get<double>(),
+                    coordinate_within_m);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DxfFixture,
+                         testing::Values("entities", "entities_binary", "entities_r12", "entities_r12_binary",
+                                         "entities_r2000", "entities_r2004", "entities_r2007", "entities_r2013",
+                                         "entities_r2018", "inserts", "inserts_binary", "hidden"),
+                         [](const auto& test) { return test.param; });
+
+void expect_same_surfaces(const Part& a, const Part& b)
+{
+    ASSERT_EQ(a.surfaces.size(), b.surfaces.size());
+    for (std::size_t i = 0; i < a.surfaces.size(); ++i) {
+        EXPECT_EQ(a.surfaces[i].modifier, b.surfaces[i].modifier);
+        EXPECT_EQ(a.surfaces[i].name, b.surfaces[i].name);
+    }
+    ASSERT_EQ(a.points.size(), b.points.size());
+    for (std::size_t i = 0; i < a.points.size(); ++i)
+        EXPECT_LT(length(a.points[i] - b.points[i]), coordinate_within_m) << i; // text keeps 16 digits
+}
+
+TEST(DxfBinary, GivesTheSameSurfacesAndNamesAsText)
+{
+    for (const std::string name : {"entities", "entities_r12", "inserts"}) {
+        SCOPED_TRACE(name);
+        const Imported text = imported_fixture(name), binary = imported_fixture(name + "_binary");
+        ASSERT_EQ(text.scene.prototypes.size(), binary.scene.prototypes.size());
+        for (std::size_t i = 0; i < text.scene.prototypes.size(); ++i)
+            expect_same_surfaces(text.scene.prototypes[i], binary.scene.prototypes[i]);
+        if (name != "entities_r12") // without handles, the names are lines here and bytes there
+            expect_same_surfaces(text.scene.root, binary.scene.root);
+        EXPECT_EQ(text.keys.size(), binary.keys.size());
+    }
+}
+
+TEST(DxfColours, AreThePaletteOfTheReferenceLibraryWithinOneStepOf255)
+{
+    const json table = read_json(folder / "palette.truth.json");
+    ASSERT_EQ(table.size(), 244u);
+    for (const auto& [index, rgb] : table.items()) {
+        SCOPED_TRACE(index);
+        const Spectrum found = dxf::palette_colour(std::stoi(index));
+        for (const int channel : {0, 1, 2})
+            EXPECT_NEAR(255 * linear_to_srgb(found[channel]),
+                        255 * linear_to_srgb(rgb[static_cast<std::size_t>(channel)].get<double>()), 1.001);
+    }
+}
+
+} // namespace
+} // namespace lightwell::test
