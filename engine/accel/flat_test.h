@@ -2,6 +2,7 @@
 
 #include "engine/base/vector.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace lightwell {
@@ -66,8 +67,8 @@ double flat_hit(const RayFrame& frame, const Vec3& direction, const Direction& n
     for (std::size_t i = 1; i < count; ++i) {
         const RayFrame::Place now = frame.place(corner(i));
         crossings.edge(before, now);
-        nearest = std::fmin(nearest, now.depth);
-        farthest = std::fmax(farthest, now.depth);
+        nearest = std::min(nearest, now.depth);
+        farthest = std::max(farthest, now.depth);
         before = now;
     }
     crossings.edge(before, first);

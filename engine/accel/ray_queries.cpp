@@ -198,7 +198,7 @@ float float_t(const Level& level, double t)
 {
     // A little too far is harmless (one more candidate), a little too near would lose a surface.
     const double scaled = (t - level.t_shift) * level.float_t_per_t;
-    return static_cast<float>(std::fmin(scaled + std::fabs(scaled) * 4 * float_step + box_padding, 3e38));
+    return static_cast<float>(std::min(scaled + std::fabs(scaled) * 4 * float_step + box_padding, 3e38));
 }
 
 /// The nearest surface wins; equal distances are decided by path, surface and triangle, so that the answer never
@@ -240,7 +240,7 @@ void record_passage(const Level& level, const Candidate& candidate, double t)
         root = root->outer;
     const double cosine = dot(normal, normalized(root->direction));
     const Bsdf bsdf(*material, cosine < 0);
-    const double c = std::fmin(1, std::fabs(cosine));
+    const double c = std::min(1.0, std::fabs(cosine));
     trace.passed->add(t, bsdf.straight_transmittance({std::sqrt(1 - c * c), 0, c}));
 }
 
@@ -257,7 +257,7 @@ void describe(const Level& level, Hit& hit, const MeshGeometry* mesh)
         const double reach = max_abs(l->origin) + hit.t * max_abs(l->direction);
         const double moved =
             l->instance != nullptr ? max_abs(l->instance->to_parent.translation) * l->outer->stretch : 0;
-        hit.error_m = std::fmax(hit.error_m, reach * l->stretch + moved);
+        hit.error_m = std::max(hit.error_m, reach * l->stretch + moved);
     }
     hit.error_m *= position_steps * std::numeric_limits<double>::epsilon();
 }
@@ -361,7 +361,7 @@ void finish_callback(RTCRay& ray, const Level& level)
         if (level.trace->opaque)
             ray.tfar = -std::numeric_limits<float>::infinity();
     } else {
-        ray.tfar = std::fmin(ray.tfar, float_t(level, level.trace->t_max));
+        ray.tfar = std::min(ray.tfar, float_t(level, level.trace->t_max));
     }
 }
 
@@ -557,7 +557,7 @@ void prepare_part(PartQueries& queries, const std::vector<Box>& prototype_boxes)
         queries.polygon_normals.push_back(normalized(polygon_area_vector(&part.points[polygon.first], polygon.count)));
     for (const Instance& instance : part.instances) {
         const Affine& m = instance.to_parent;
-        queries.placed.push_back({inverse(m), std::fmax(length(m.x), std::fmax(length(m.y), length(m.z)))});
+        queries.placed.push_back({inverse(m), std::max(length(m.x), std::max(length(m.y), length(m.z)))});
         queries.instance_boxes.push_back(transform_box(m, prototype_boxes[instance.prototype]));
     }
     for (std::uint32_t i = 0; i < part.surfaces.size(); ++i) {
@@ -574,8 +574,7 @@ void build_part(PartQueries& queries, RTCDevice device)
     if (queries.box.empty())
         return;
     queries.centre = queries.box.centre();
-    const double half =
-        std::fmax(max_abs(queries.box.high - queries.centre), max_abs(queries.box.low - queries.centre));
+    const double half = std::max(max_abs(queries.box.high - queries.centre), max_abs(queries.box.low - queries.centre));
     queries.scale = half > 0 ? std::ldexp(1.0, -std::ilogb(half) - 1) : 1;
     // The clip of rays to the box must not lose a surface that lies in the box's face.
     const Vec3 slack = Vec3{1, 1, 1} * (box_padding / queries.scale);

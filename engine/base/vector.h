@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -57,7 +58,7 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) noexcept
 }
 inline double max_abs(const Vec3& a) noexcept
 {
-    return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
+    return std::max(std::fabs(a.x), std::max(std::fabs(a.y), std::fabs(a.z)));
 }
 /// Scaled first, so that neither tiny nor huge vectors lose their length to underflow or overflow.
 inline double length(const Vec3& a) noexcept

@@ -7,9 +7,6 @@ namespace {
 
 /// A shadow ray stops this share of its length before the lamp, beyond the rounding of the lamp's own position.
 constexpr double before_lamp = 1 - 1e-9;
-/// Half of the sky's rays aim at windows where there are windows: indoors that is where the sky is, outdoors the
-/// other half finds it.
-constexpr double share_of_portals = 0.5;
 /// A way of finding a source that is this much less likely than the other adds only noise.
 constexpr double hopeless = 1e-3;
 
@@ -32,11 +29,19 @@ double shadow_ray_weight(double shadow_density, double scattered_density) noexce
     return shadow_density / (shadow_density + scattered_density);
 }
 
-void DirectLight::add(const Vertex& vertex, const SourceSample& sample, double density_per_sr, bool found_by_scattering,
-                      Gathered& sum) const
+/// Gathering at one vertex.
+struct DirectLight::Task {
+    const Vertex& vertex;
+    const Scattering& scattering;
+    Gathered& sum;
+};
+
+void DirectLight::add(const Task& task, const SourceSample& sample, double density_per_sr,
+                      bool found_by_scattering) const
 {
     if (!(density_per_sr > 0) || sample.radiance.is_black())
         return;
+    const Vertex& vertex = task.vertex;
     const Direction local = vertex.frame.to_local(sample.to_light);
     if (!vertex.same_side(sample.to_light, local))
         return;
@@ -46,15 +51,15 @@ void DirectLight::add(const Vertex& vertex, const SourceSample& sample, double d
     const Spectrum seen = rays_.transmittance(shadow_ray(vertex.hit, sample));
     if (seen.is_black())
         return;
-    const double scattered = found_by_scattering ? vertex.bsdf.density_per_sr(vertex.to_viewer, local) : 0;
+    const double scattered = found_by_scattering ? task.scattering.density_per_sr(sample.to_light, local) : 0;
     const double weight = shadow_ray_weight(density_per_sr, scattered);
     const Spectrum light = sample.radiance * seen * (weight * std::fabs(local.z) / density_per_sr);
-    sum.radiance += light * value;
+    task.sum.radiance += light * value;
     if (local.z > 0)
-        sum.irradiance += light;
+        task.sum.irradiance += light;
 }
 
-void DirectLight::lamps(const Vertex& vertex, PathRandom& random, SourceShares& shares, Gathered& sum) const
+void DirectLight::lamps(const Task& task, PathRandom& random, SourceShares& shares) const
 {
     thread_local std::vector<double> summed;
     const std::vector<LocalSource>& all = sources_.lamps();
@@ -76,49 +81,56 @@ void DirectLight::lamps(const Vertex& vertex, PathRandom& random, SourceShares& 
         if (!(part > 0))
             continue;
         const SourceSample sample = all[at].sample(shares.from, u);
-        add(vertex, sample, sample.density_per_sr * shares.lamp_rays * part / total,
-            !std::holds_alternative<Illum>(all[at].material()), sum);
+        add(task, sample, sample.density_per_sr * shares.lamp_rays * part / total,
+            !std::holds_alternative<Illum>(all[at].material()));
     }
 }
 
-void DirectLight::sky(const Vertex& vertex, PathRandom& random, SourceShares& shares, Gathered& sum) const
+SourceSample DirectLight::sky_sample(const SourceShares& shares, double choice, UnitSquare u) const
 {
-    const UnitSquare u = random.pair();
-    const double choice = random.one();
-    if (!sources_.portals().empty()) {
-        shares.portals = sources_.portals().shares(shares.from, shares.normal, shares.transmits);
-        shares.portal_share = shares.portals.total() > 0 ? share_of_portals : 0;
-    }
     SourceSample sample;
     if (choice < shares.portal_share) {
-        const SampledDirection d = sources_.portals().sample(shares.portals, shares.from, u);
-        if (!(d.density_per_sr > 0))
-            return;
-        sample = {d.direction, infinity, 1, sources_.sky().radiance(d.direction)};
+        const SampledDirection d = sources_.guide().sample_portal(shares.portals, shares.from, u);
+        if (d.density_per_sr > 0)
+            sample = {d.direction, infinity, 1, sources_.sky().radiance(d.direction)};
     } else {
         sample = sources_.sky().sample(u);
     }
     if (sample.density_per_sr > 0)
-        add(vertex, sample, sky_density(shares, sample.to_light), true, sum);
+        sample.density_per_sr = sky_density(shares, sample.to_light);
+    return sample;
 }
 
-Gathered DirectLight::gather(const Vertex& vertex, int lamp_rays, PathRandom& random, SourceShares& shares) const
+void DirectLight::sky(const Task& task, PathRandom& random, SourceShares& shares) const
+{
+    shares.portals = sources_.guide().portal_shares(shares.from, shares.normal, shares.transmits);
+    shares.portal_share = shares.portals.total() > 0 ? shares.portals.cell->portal_share : 0;
+    const double offset = random.one();
+    for (int k = 0; k < shares.sky_rays; ++k) {
+        const SourceSample sample = sky_sample(shares, (k + offset) / shares.sky_rays, random.pair());
+        add(task, sample, sample.density_per_sr, true);
+    }
+}
+
+Gathered DirectLight::gather(const Vertex& vertex, const Scattering& scattering, int rays, PathRandom& random,
+                             SourceShares& shares) const
 {
     Gathered sum;
+    const Task task{vertex, scattering, sum};
     shares.from = vertex.hit.position;
     shares.normal = vertex.side;
     shares.transmits = vertex.transmits();
-    shares.lamp_rays = lamp_rays;
+    shares.lamp_rays = shares.sky_rays = rays;
     shares.portal_share = 0;
     shares.lamp_total = 0;
     if (!sources_.lamps().empty())
-        lamps(vertex, random, shares, sum);
+        lamps(task, random, shares);
     for (const SunSource& sun : sources_.suns()) {
         const SourceSample sample = sun.sample(random.pair());
-        add(vertex, sample, sample.density_per_sr, true, sum);
+        add(task, sample, sample.density_per_sr, true);
     }
     if (!sources_.sky().empty())
-        sky(vertex, random, shares, sum);
+        sky(task, random, shares);
     return sum;
 }
 
@@ -136,8 +148,8 @@ double DirectLight::sky_density(const SourceShares& shares, const Direction& dir
 {
     double density = (1 - shares.portal_share) * sources_.sky().density_per_sr(direction);
     if (shares.portal_share > 0)
-        density += shares.portal_share * sources_.portals().density_per_sr(shares.portals, shares.from, direction);
-    return density;
+        density += shares.portal_share * sources_.guide().portal_density_per_sr(shares.portals, shares.from, direction);
+    return density * shares.sky_rays;
 }
 
 } // namespace lightwell

@@ -7,8 +7,8 @@
 namespace lightwell {
 namespace {
 
-/// Shadow rays to lamps at the first vertex, where their noise is seen directly, and at later ones.
-constexpr int first_lamp_rays = 4, later_lamp_rays = 1;
+/// Shadow rays to lamps and to the sky at the first vertex, where their noise is seen directly, and at later ones.
+constexpr int first_rays = 4, later_rays = 1;
 /// Paths are never ended before this many scatterings.
 constexpr int sure_scatterings = 3;
 /// Even a path that loses nothing ends some day.
@@ -84,10 +84,10 @@ void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& materi
     walk.add(radiance * walk.weight(shadow_density));
 }
 
-void PathTracer::gather_at(Walk& walk, const Vertex& vertex, PathRandom& random) const
+void PathTracer::gather_at(Walk& walk, const Vertex& vertex, const Scattering& scattering, PathRandom& random) const
 {
     const bool first = walk.at_first;
-    const Gathered direct = direct_.gather(vertex, first ? first_lamp_rays : later_lamp_rays, random, walk.shares);
+    const Gathered direct = direct_.gather(vertex, scattering, first ? first_rays : later_rays, random, walk.shares);
     walk.radiance += walk.throughput * direct.radiance;
     if (first)
         walk.irradiance += direct.irradiance;
@@ -95,10 +95,9 @@ void PathTracer::gather_at(Walk& walk, const Vertex& vertex, PathRandom& random)
         walk.irradiance += walk.arriving_throughput * direct.radiance;
 }
 
-bool PathTracer::scatter(Walk& walk, const Vertex& vertex, PathRandom& random) const
+bool PathTracer::scatter(Walk& walk, const Vertex& vertex, const Scattering& scattering, PathRandom& random) const
 {
-    const double choice = random.one();
-    const std::optional<BsdfSample> scattered = vertex.bsdf.sample(vertex.to_viewer, choice, random.pair());
+    const std::optional<BsdfSample> scattered = scattering.sample(random);
     const Direction local = scattered ? scattered->to_light : Direction{};
     const Direction world = scattered && scattered->straight ? walk.ray.direction : vertex.frame.to_world(local);
     if (!scattered || scattered->weight.is_black() || !vertex.same_side(world, local))
@@ -151,6 +150,7 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
         return false;
     }
     const Vertex vertex(hit, walk.ray.direction, *material);
+    const Scattering scattering(vertex, sources_.guide());
     const auto* body = std::get_if<Dielectric>(material);
     if (body != nullptr && dot(hit.normal, walk.ray.direction) > 0) { // the way here was inside the body
         const Spectrum left = body->transmission_per_m;
@@ -162,8 +162,8 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     if (walk.at_first)
         walk.first_is_diffuse = !lobes.diffuse_reflectance.is_black();
     if (!lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black() || lobes.glossy)
-        gather_at(walk, vertex, random);
-    return scatter(walk, vertex, random);
+        gather_at(walk, vertex, scattering, random);
+    return scatter(walk, vertex, scattering, random);
 }
 
 void PathTracer::run(Walk& walk, PathRandom& random) const
@@ -196,10 +196,11 @@ Spectrum PathTracer::irradiance(Hit here, const Direction& normal, PathRandom& r
 {
     here.normal = here.shading_normal = normal;
     const Vertex vertex(here, -normal, white_);
+    const Scattering scattering(vertex, sources_.guide());
     Walk walk;
     walk.ray.direction = -normal;
-    gather_at(walk, vertex, random);
-    if (scatter(walk, vertex, random))
+    gather_at(walk, vertex, scattering, random);
+    if (scatter(walk, vertex, scattering, random))
         run(walk, random);
     return walk.irradiance;
 }

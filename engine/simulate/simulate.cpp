@@ -232,7 +232,7 @@ struct Simulation::Parts {
     double size_m;
 
     explicit Parts(Scene&& s)
-        : scene(std::move(s)), rays(scene), sources(scene), tracer(scene, rays, sources),
+        : scene(std::move(s)), rays(scene), sources(scene, rays), tracer(scene, rays, sources),
           size_m(bounds(scene).diagonal())
     {
     }

@@ -1,7 +1,5 @@
 #include "engine/sources/portals.h"
 
-#include "engine/base/frame.h"
-
 #include <algorithm>
 
 namespace lightwell {
@@ -9,6 +7,7 @@ namespace {
 
 /// Panes smaller than this share of the largest are left to the other strategies.
 constexpr double smallest_share = 1e-3;
+constexpr std::size_t most_portals = 512;
 
 std::vector<Point> outline_of(const Part& part, const Surface& surface, const Affine& to_world)
 {
@@ -58,8 +57,30 @@ bool flat_rectangle(const std::vector<Point>& points, Rectangle& rectangle)
 
 } // namespace
 
-Portals::Portals(const Scene& scene)
+SampledDirection Portal::sample(const Point& from, UnitSquare u) const noexcept
 {
+    const Vec3 way = corner + edge_x * u.u + edge_y * u.v - from;
+    const double distance = length(way);
+    const Direction direction = normalized(way);
+    const double cosine = std::fabs(dot(normal, direction));
+    return {direction, cosine > 0 ? distance * distance / (area_m2 * cosine) : 0};
+}
+
+double Portal::density_per_sr(const Point& from, const Direction& direction) const noexcept
+{
+    const double cosine = dot(normal, direction);
+    const double t = dot(normal, corner - from) / cosine;
+    if (!(t > 0))
+        return 0;
+    const Vec3 v = from + direction * t - corner;
+    const double x = dot(v, edge_x), y = dot(v, edge_y);
+    const bool within = x >= 0 && x <= dot(edge_x, edge_x) && y >= 0 && y <= dot(edge_y, edge_y);
+    return within ? t * t / (area_m2 * std::fabs(cosine)) : 0;
+}
+
+std::vector<Portal> find_portals(const Scene& scene)
+{
+    std::vector<Portal> portals;
     visit_expanded(scene, [&](const Part& part, const Surface& surface, const Affine& to_world, ModifierId modifier) {
         const Material* material = resolve(scene, modifier).material;
         Rectangle r;
@@ -67,75 +88,16 @@ Portals::Portals(const Scene& scene)
             !flat_rectangle(outline_of(part, surface, to_world), r))
             return;
         const Vec3 area = cross(r.edge_x, r.edge_y);
-        portals_.push_back({r.corner, r.edge_x, r.edge_y, r.corner + (r.edge_x + r.edge_y) * 0.5, normalized(area),
-                            length(area), 0.5 * length(r.edge_x + r.edge_y)});
+        portals.push_back({r.corner, r.edge_x, r.edge_y, r.corner + (r.edge_x + r.edge_y) * 0.5, normalized(area),
+                           length(area), 0.5 * length(r.edge_x + r.edge_y)});
     });
-    std::stable_sort(portals_.begin(), portals_.end(),
+    std::stable_sort(portals.begin(), portals.end(),
                      [](const Portal& a, const Portal& b) { return a.area_m2 > b.area_m2; });
-    std::size_t count = std::min(portals_.size(), Shares::most);
-    while (count > 0 && portals_[count - 1].area_m2 < smallest_share * portals_[0].area_m2)
+    std::size_t count = std::min(portals.size(), most_portals);
+    while (count > 0 && portals[count - 1].area_m2 < smallest_share * portals[0].area_m2)
         --count;
-    portals_.resize(count);
-}
-
-Portals::Shares Portals::shares(const Point& at, const Direction& normal, bool transmits) const noexcept
-{
-    Shares shares;
-    double sum = 0;
-    for (const Portal& p : portals_) {
-        const Vec3 way = p.centre - at;
-        const double squared = dot(way, way), distance = std::sqrt(squared);
-        const double above = dot(normal, way);
-        double share = 0;
-        if (transmits || above + p.radius_m > 0) {
-            const double near = std::fmax(distance, p.radius_m);
-            const double arriving =
-                std::fmin(1, (std::fmax(0, transmits ? std::fabs(above) : above) + 0.2 * p.radius_m) / near);
-            const double leaving = 0.05 + std::fabs(dot(p.normal, way)) / near;
-            share = std::fmin(2 * pi, arriving * leaving * p.area_m2 / std::fmax(squared, 1e-300));
-        }
-        shares.summed[shares.count++] = sum += share;
-    }
-    return shares;
-}
-
-SampledDirection Portals::sample(const Shares& shares, const Point& from, UnitSquare u) const noexcept
-{
-    const double total = shares.total();
-    if (!(total > 0))
-        return {};
-    const double wanted = u.u * total;
-    const auto at = static_cast<std::size_t>(std::upper_bound(shares.summed, shares.summed + shares.count - 1, wanted) -
-                                             shares.summed);
-    const double before = at == 0 ? 0 : shares.summed[at - 1], part = shares.summed[at] - before;
-    if (!(part > 0))
-        return {};
-    const Portal& p = portals_[at];
-    const double left = std::clamp((wanted - before) / part, 0.0, 0x1.fffffffffffffp-1);
-    const SampledDirection d = SphericalRectangle(from, p.corner, p.edge_x, p.edge_y).sample({left, u.v});
-    if (!(d.density_per_sr > 0))
-        return {};
-    return {d.direction, density_per_sr(shares, from, d.direction)};
-}
-
-double Portals::density_per_sr(const Shares& shares, const Point& from, const Direction& direction) const noexcept
-{
-    const double total = shares.total();
-    if (!(total > 0))
-        return 0;
-    double density = 0;
-    for (std::size_t i = 0; i < shares.count; ++i) {
-        const double share = shares.summed[i] - (i == 0 ? 0 : shares.summed[i - 1]);
-        const Portal& p = portals_[i];
-        const double t = dot(p.normal, p.corner - from) / dot(p.normal, direction);
-        if (!(share > 0) || !(t > 0))
-            continue;
-        const Vec3 v = from + direction * t - p.corner;
-        const double x = dot(v, p.edge_x), y = dot(v, p.edge_y);
-        if (x >= 0 && x <= dot(p.edge_x, p.edge_x) && y >= 0 && y <= dot(p.edge_y, p.edge_y))
-            density += share * SphericalRectangle(from, p.corner, p.edge_x, p.edge_y).density_per_sr(direction);
-    }
-    return density / total;
+    portals.resize(count);
+    return portals;
 }
 
 } // namespace lightwell

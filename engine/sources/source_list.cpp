@@ -175,7 +175,7 @@ struct SourceList::Finder {
     }
 };
 
-SourceList::SourceList(const Scene& scene)
+SourceList::SourceList(const Scene& scene, const RayQueries& rays)
 {
     Finder finder(scene, *this);
     finder.walk(scene.root, Affine{}, 0, nullptr);
@@ -191,8 +191,7 @@ SourceList::SourceList(const Scene& scene)
             suns_.push_back({source, radiance});
     }
     sky_ = SkySource(scene, wide);
-    if (!sky_.empty())
-        portals_ = Portals(scene);
+    guide_ = std::make_unique<Guide>(scene, rays, sky_, suns_);
 }
 
 int SourceList::lamp_at(const Hit& hit) const noexcept

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/accel/ray_queries.h"
+#include "engine/sources/guide.h"
 #include "engine/sources/local_source.h"
-#include "engine/sources/portals.h"
 #include "engine/sources/sky_source.h"
 
 #include <unordered_map>
@@ -21,12 +21,12 @@ struct SunSource {
 /// Everything that sends light: lamps at finite distance (inside instances too), suns, and the sky.
 class SourceList {
 public:
-    explicit SourceList(const Scene& scene);
+    SourceList(const Scene& scene, const RayQueries& rays);
 
     const std::vector<LocalSource>& lamps() const noexcept { return lamps_; }
     const std::vector<SunSource>& suns() const noexcept { return suns_; }
     const SkySource& sky() const noexcept { return sky_; }
-    const Portals& portals() const noexcept { return portals_; }
+    const Guide& guide() const noexcept { return *guide_; }
 
     /// The lamp that a ray has met; -1 when it is none that shadow rays aim at.
     int lamp_at(const Hit& hit) const noexcept;
@@ -37,7 +37,7 @@ private:
     std::vector<LocalSource> lamps_;
     std::vector<SunSource> suns_;
     SkySource sky_;
-    Portals portals_;
+    std::unique_ptr<Guide> guide_;
     std::unordered_map<std::uint64_t, int> lamp_by_place_;
 };
 
