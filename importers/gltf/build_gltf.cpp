@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "importers/gltf/gltf_accessor.h"
+#include "importers/gltf/gltf_buffers.h"
 #include "importers/gltf/gltf_primitive.h"
 #include "importers/gltf/gltf_views.h"
 
@@ -247,7 +248,7 @@ std::vector<Loaded> GltfBuilder::load(int index, const Use& first)
             else
                 parts.push_back({&primitive, std::make_shared<const Mesh>(std::move(read.mesh)), i});
         } catch (const InputError& error) {
-            if (first_fault_.empty())
+            if (first_fault_.empty() && std::string_view(error.what()).find(buffer_left_open) == std::string_view::npos)
                 first_fault_ = error.what();
             imported_.ledger.skipped("primitive", layer, "damaged");
             imported_.report.add(Finding::ignored, document_.name + ": mesh \"" + mesh.name + '"',

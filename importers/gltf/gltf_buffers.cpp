@@ -68,8 +68,7 @@ GltfBuffer open_buffer(const std::string& uri, std::size_t length, std::string_v
 {
     GltfBuffer buffer;
     if (uri.empty())
-        buffer = binary_chunk.empty() ? GltfBuffer{{}, "it has neither a URI nor a binary chunk"}
-                                      : GltfBuffer{binary_chunk, {}};
+        buffer = binary_chunk.empty() ? GltfBuffer{{}, std::string(buffer_left_open)} : GltfBuffer{binary_chunk, {}};
     else if (uri.rfind("data:", 0) == 0)
         buffer = open_data_uri(uri, document);
     else

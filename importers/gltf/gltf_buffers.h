@@ -14,6 +14,9 @@ struct GltfBuffer {
     std::string fault; ///< why there are none
 };
 
+/// The fault of a buffer that the format allows to have no bytes; extensions fill such buffers.
+inline constexpr std::string_view buffer_left_open = "it has neither a URI nor a binary chunk";
+
 /// @param uri        of the buffer; empty: the BIN chunk
 /// @param length     `byteLength`; more bytes than that are cut off
 /// @param document   keeps the bytes alive

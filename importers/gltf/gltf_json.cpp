@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace lightwell {
 namespace {
 
@@ -81,6 +84,35 @@ void take_lights(const Json& root, GltfJson& result)
         result.light_types.push_back(light.is_object() ? text_at(light, "type") : std::string());
 }
 
+/// Whole numbers written as 12.0 become 12: the parser refuses them where it wants integers.
+void settle_integers(Json& value)
+{
+    constexpr double largest = 2147483647;
+    if (value.is_number_float()) {
+        const double number = value.get<double>();
+        if (number >= 0 && number <= largest && number == std::floor(number))
+            value = static_cast<std::uint64_t>(number);
+        return;
+    }
+    if (value.is_structured())
+        for (Json& item : value)
+            settle_integers(item);
+}
+
+/// An accessor of an unknown type must not stop the file, only what uses it.
+void settle_accessor_types(Json& root)
+{
+    static constexpr std::string_view known[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    constexpr unsigned unreadable_component_type = 5130; // known to the parser and to nobody else
+    if (!root.contains("accessors"))
+        return;
+    for (Json& accessor : root["accessors"])
+        if (std::find(std::begin(known), std::end(known), text_at(accessor, "type")) == std::end(known)) {
+            accessor["type"] = "SCALAR";
+            accessor["componentType"] = unreadable_component_type;
+        }
+}
+
 /// Moves `indices` out of the parser's sight, who would refuse the whole file for one bad number.
 void hide_indices(Json& root, const std::string& name)
 {
@@ -109,6 +141,8 @@ GltfJson prepare_json(std::string_view json, const std::string& name, Report& re
         throw InputError(name, std::string("JSON is ") + root.type_name() + ", expected object");
     check_version(root, name);
     check_lists(root, name);
+    settle_integers(root);
+    settle_accessor_types(root);
     GltfJson result;
     result.generator = text_at(root["asset"], "generator");
     take_buffers(root, result);
