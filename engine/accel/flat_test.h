@@ -13,6 +13,7 @@ struct RayFrame {
     int kx, ky, kz;
     double shear_x, shear_y, inverse_z;
 
+    RayFrame() = default;
     RayFrame(const Point& ray_origin, const Vec3& direction) noexcept : origin(ray_origin)
     {
         const double ax = std::fabs(direction.x), ay = std::fabs(direction.y), az = std::fabs(direction.z);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <stdexcept>
 #include <tuple>
 
@@ -31,10 +32,13 @@ constexpr double box_padding = 16 * float_step;
 constexpr double position_steps = 64;
 
 struct PartQueries;
+struct MeshGeometry;
 
-/// One surface of a Part as its leaf test sees it.
+/// One surface of a Part as its leaf test sees it, so that the test touches as little memory as possible.
 struct Leaf {
-    std::uint32_t surface;
+    std::uint32_t surface; ///< into Part::surfaces
+    std::uint32_t index;   ///< into the array of its shape
+    Shape shape;
 };
 struct PlacedInstance {
     Affine to_local;
@@ -75,6 +79,7 @@ private:
 struct Trace {
     double t_max;
     Hit* hit = nullptr;
+    const MeshGeometry* mesh = nullptr; ///< of the best hit
     bool opaque = false;
     PassedSurfaces* passed = nullptr; ///< of a transmittance query
 };
@@ -86,7 +91,9 @@ struct Level {
     Trace* trace;
     Point origin;
     Vec3 direction;
-    RayFrame frame;
+    double inverse_square;  ///< 1 / |direction|^2
+    mutable RayFrame frame; ///< made when the first flat surface is met
+    mutable bool has_frame;
     double float_t_per_t, t_shift; ///< Embree's t = (t - shift) * factor
     const Level* outer;
     const Instance* instance; ///< that leads to this level; null in the root
@@ -237,35 +244,45 @@ void record_passage(const Level& level, const Candidate& candidate, double t)
     trace.passed->add(t, bsdf.straight_transmittance({std::sqrt(1 - c * c), 0, c}));
 }
 
+/// Normals and error of a hit found at this level.
+void describe(const Level& level, Hit& hit, const MeshGeometry* mesh)
+{
+    const PartQueries& queries = *level.part;
+    const Point at = level.origin + level.direction * hit.t;
+    const Normals normals = surface_normals(queries, queries.part->surfaces[hit.surface], mesh, hit.triangle, at);
+    hit.normal = normal_to_world(level, normals.geometric);
+    hit.shading_normal = normal_to_world(level, normals.shading);
+    hit.error_m = 0;
+    for (const Level* l = &level; l != nullptr; l = l->outer) {
+        const double reach = max_abs(l->origin) + hit.t * max_abs(l->direction);
+        const double moved =
+            l->instance != nullptr ? max_abs(l->instance->to_parent.translation) * l->outer->stretch : 0;
+        hit.error_m = std::fmax(hit.error_m, reach * l->stretch + moved);
+    }
+    hit.error_m *= position_steps * std::numeric_limits<double>::epsilon();
+}
+
+/// Keeps what is needed to describe the hit when the search is over: most candidates are beaten by nearer ones.
 void record_hit(const Level& level, const Candidate& candidate, double t)
 {
-    Hit& best = *level.trace->hit;
-    if (!is_nearer(best, t, level.path, candidate.surface, candidate.triangle))
+    Trace& trace = *level.trace;
+    if (!is_nearer(*trace.hit, t, level.path, candidate.surface, candidate.triangle))
         return;
     const PartQueries& queries = *level.part;
-    const Surface& surface = queries.part->surfaces[candidate.surface];
-    const ModifierId modifier = world_modifier(level, surface.modifier);
+    const ModifierId modifier = world_modifier(level, queries.part->surfaces[candidate.surface].modifier);
     if (modifier == void_modifier || (*queries.materials)[static_cast<std::size_t>(modifier)] == nullptr)
         return;
+    Hit& best = *trace.hit;
     best.t = t;
     best.part = queries.part;
     best.surface = candidate.surface;
     best.triangle = candidate.triangle;
     best.path = level.path;
     best.modifier = modifier;
-    const Point at = level.origin + level.direction * t;
-    const Normals normals = surface_normals(queries, surface, candidate.mesh, candidate.triangle, at);
-    best.normal = normal_to_world(level, normals.geometric);
-    best.shading_normal = normal_to_world(level, normals.shading);
-    best.error_m = 0;
-    for (const Level* l = &level; l != nullptr; l = l->outer) {
-        const double reach = max_abs(l->origin) + t * max_abs(l->direction);
-        const double moved =
-            l->instance != nullptr ? max_abs(l->instance->to_parent.translation) * l->outer->stretch : 0;
-        best.error_m = std::fmax(best.error_m, reach * l->stretch + moved);
-    }
-    best.error_m *= position_steps * std::numeric_limits<double>::epsilon();
-    level.trace->t_max = t;
+    trace.mesh = candidate.mesh;
+    trace.t_max = t;
+    if (level.instance != nullptr)
+        describe(level, *trace.hit, candidate.mesh); // the levels are gone when the search is over
 }
 
 void record(const Level& level, const Candidate& candidate, double t)
@@ -278,40 +295,49 @@ void record(const Level& level, const Candidate& candidate, double t)
         record_hit(level, candidate, t);
 }
 
-void descend(const Level& outer, std::uint32_t surface);
+void descend(const Level& outer, const Leaf& leaf);
 
-void test_leaf(const Level& level, std::uint32_t surface_index)
+const RayFrame& frame_of(const Level& level)
+{
+    if (!level.has_frame) {
+        level.frame = RayFrame(level.origin, level.direction);
+        level.has_frame = true;
+    }
+    return level.frame;
+}
+
+void test_leaf(const Level& level, const Leaf& leaf)
 {
     const PartQueries& queries = *level.part;
     const Part& part = *queries.part;
-    const Surface& surface = part.surfaces[surface_index];
-    const Candidate candidate{surface_index, nullptr, 0};
-    switch (surface.shape) {
+    const Candidate candidate{leaf.surface, nullptr, 0};
+    switch (leaf.shape) {
     case Shape::polygon: {
-        const Polygon& polygon = part.polygons[surface.index];
+        const Polygon& polygon = part.polygons[leaf.index];
         const Point* corners = &part.points[polygon.first];
         record(level, candidate,
-               flat_hit(level.frame, level.direction, queries.polygon_normals[surface.index], corners[0], polygon.count,
-                        [corners](std::size_t i) -> const Point& { return corners[i]; }));
+               flat_hit(frame_of(level), level.direction, queries.polygon_normals[leaf.index], corners[0],
+                        polygon.count, [corners](std::size_t i) -> const Point& { return corners[i]; }));
         break;
     }
     case Shape::sphere:
     case Shape::bubble:
-        for (const double t : sphere_hit(part.spheres[surface.index], level.origin, level.direction).t)
+        for (const double t :
+             sphere_hit(part.spheres[leaf.index], level.origin, level.direction, level.inverse_square).t)
             record(level, candidate, t);
         break;
     case Shape::cone:
     case Shape::cup:
     case Shape::cylinder:
     case Shape::tube:
-        for (const double t : cone_hit(part.cones[surface.index], level.origin, level.direction).t)
+        for (const double t : cone_hit(part.cones[leaf.index], level.origin, level.direction).t)
             record(level, candidate, t);
         break;
     case Shape::ring:
-        record(level, candidate, ring_hit(part.rings[surface.index], level.origin, level.direction));
+        record(level, candidate, ring_hit(part.rings[leaf.index], level.origin, level.direction));
         break;
     case Shape::instance:
-        descend(level, surface_index);
+        descend(level, leaf);
         break;
     case Shape::mesh:
     case Shape::source:
@@ -324,7 +350,7 @@ void test_triangle(const Level& level, const MeshGeometry& geometry, std::uint32
     const Mesh& mesh = *level.part->part->meshes[level.part->part->surfaces[geometry.surface].index];
     const std::uint32_t* corner = &mesh.triangles[3 * std::size_t{triangle}];
     record(level, {geometry.surface, &geometry, triangle},
-           flat_hit(level.frame, level.direction, geometry.face_normals[triangle], mesh.points[corner[0]], 3,
+           flat_hit(frame_of(level), level.direction, geometry.face_normals[triangle], mesh.points[corner[0]], 3,
                     [&](std::size_t i) -> const Point& { return mesh.points[corner[i]]; }));
 }
 
@@ -359,7 +385,7 @@ void leaf_callback(const Arguments* a)
     if (!a->valid[0])
         return;
     const Level& level = level_of(a->context);
-    test_leaf(level, level.part->leaves[a->primID].surface);
+    test_leaf(level, level.part->leaves[a->primID]);
     finish_callback(ray_of(a), level);
 }
 
@@ -373,9 +399,18 @@ void triangle_callback(const Arguments* a)
     finish_callback(ray_of(a), level);
 }
 
-/// First and last t at which the ray is within the box, in double; false when it misses.
+bool holds(const Box& box, const Point& p)
+{
+    return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y && p.z >= box.low.z &&
+           p.z <= box.high.z;
+}
+
+/// The t at which the ray enters the box, in double; false when it misses it.
 bool clip_to_box(const Box& box, const Point& origin, const Vec3& direction, double t_max, double& enter)
 {
+    enter = 0;
+    if (holds(box, origin))
+        return true;
     double low = 0, high = t_max;
     for (int axis = 0; axis < 3; ++axis) {
         const double inverse = 1 / direction[axis];
@@ -390,6 +425,15 @@ bool clip_to_box(const Box& box, const Point& origin, const Vec3& direction, dou
     return low <= high;
 }
 
+/// 2^-floor(log2(x)), by the exponent's bits.
+double inverse_power_of_two(double x)
+{
+    constexpr std::uint64_t bias_twice = 2046, exponent_bits = 52;
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(x) >> exponent_bits;
+    return exponent == 0 || exponent >= bias_twice ? 1
+                                                   : std::bit_cast<double>((bias_twice - exponent) << exponent_bits);
+}
+
 void run(const PartQueries& queries, Level& level)
 {
     double enter = 0;
@@ -397,7 +441,7 @@ void run(const PartQueries& queries, Level& level)
         !clip_to_box(queries.box, level.origin, level.direction, level.trace->t_max, enter))
         return;
     const double size = max_abs(level.direction);
-    const double unit = std::ldexp(1.0, -std::ilogb(size));
+    const double unit = inverse_power_of_two(size);
     level.t_shift = enter;
     level.float_t_per_t = queries.scale / unit;
     const Vec3 start = (level.origin + level.direction * enter - queries.centre) * queries.scale;
@@ -426,21 +470,21 @@ void run(const PartQueries& queries, Level& level)
 
 Level make_level(const PartQueries& queries, Trace& trace, const Point& origin, const Vec3& direction)
 {
-    return {{}, &queries, &trace, origin, direction, RayFrame(origin, direction), 1, 0, nullptr, nullptr, 0, 1};
+    return {{},  &queries, &trace,  origin, direction, 1 / dot(direction, direction), RayFrame{}, false, 1.0,
+            0.0, nullptr,  nullptr, 0,      1.0};
 }
 
-void descend(const Level& outer, std::uint32_t surface)
+void descend(const Level& outer, const Leaf& leaf)
 {
     const PartQueries& queries = *outer.part;
-    const std::uint32_t index = queries.part->surfaces[surface].index;
-    const Instance& instance = queries.part->instances[index];
-    const PlacedInstance& placed = queries.placed[index];
+    const Instance& instance = queries.part->instances[leaf.index];
+    const PlacedInstance& placed = queries.placed[leaf.index];
     const PartQueries& inner_queries = (*queries.prototypes)[instance.prototype];
     Level inner = make_level(inner_queries, *outer.trace, placed.to_local.point(outer.origin),
                              placed.to_local.vector(outer.direction));
     inner.outer = &outer;
     inner.instance = &instance;
-    inner.path = instance_path(outer.path, surface);
+    inner.path = instance_path(outer.path, leaf.surface);
     inner.stretch = outer.stretch * placed.stretch;
     run(inner_queries, inner);
 }
@@ -520,7 +564,7 @@ void prepare_part(PartQueries& queries, const std::vector<Box>& prototype_boxes)
         const Surface& surface = part.surfaces[i];
         const bool empty_instance = surface.shape == Shape::instance && queries.instance_boxes[surface.index].empty();
         if (surface.shape != Shape::mesh && surface.shape != Shape::source && !empty_instance)
-            queries.leaves.push_back({i});
+            queries.leaves.push_back({i, surface.index, surface.shape});
     }
     prepare_meshes(queries);
 }
@@ -623,6 +667,8 @@ bool RayQueries::closest(const Ray& ray, Hit& hit) const noexcept
     run(state_->root, level);
     if (hit.part == nullptr)
         return false;
+    if (hit.path == 0)
+        describe(level, hit, trace.mesh);
     hit.position = ray.origin + ray.direction * hit.t;
     return true;
 }

@@ -24,17 +24,16 @@ Crossings roots(double a, double half_b, double c, double discriminant) noexcept
 
 } // namespace
 
-Crossings sphere_hit(const Sphere& sphere, const Point& origin, const Vec3& direction) noexcept
+Crossings sphere_hit(const Sphere& sphere, const Point& origin, const Vec3& direction, double inverse_square) noexcept
 {
     // From the point of the ray nearest to the centre: far-away rays keep their digits.
-    const double a = dot(direction, direction);
     const Vec3 to_centre = sphere.centre - origin;
-    const double shift = dot(to_centre, direction) / a;
+    const double shift = dot(to_centre, direction) * inverse_square;
     const Vec3 foot = direction * shift - to_centre;
     const double room = sphere.radius * sphere.radius - dot(foot, foot);
     Crossings found;
     if (room >= 0) {
-        const double half = std::sqrt(room / a);
+        const double half = std::sqrt(room * inverse_square);
         found.t[0] = shift - half;
         found.t[1] = shift + half;
     }

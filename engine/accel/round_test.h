@@ -9,7 +9,8 @@ struct Crossings {
     double t[2] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 };
 
-Crossings sphere_hit(const Sphere& sphere, const Point& origin, const Vec3& direction) noexcept;
+/// @param inverse_square  1 / |direction|^2, the same for all surfaces along a ray
+Crossings sphere_hit(const Sphere& sphere, const Point& origin, const Vec3& direction, double inverse_square) noexcept;
 /// Crossings with the side between the two ends.
 Crossings cone_hit(const Cone& cone, const Point& origin, const Vec3& direction) noexcept;
 /// The one crossing with the disc, outside its hole.

@@ -57,17 +57,20 @@ Exposure choose_exposure(const std::vector<double>& sorted, double wanted)
 }
 
 /// Colours outside the display's range move towards grey of the same luminance until they fit, instead of being cut
-/// channel by channel, which would change their hue.
+/// channel by channel, which would change their hue. Towards white they begin to move early, so that a light that
+/// grows brighter fades to white without an edge.
 Spectrum into_display_range(Spectrum colour, double luminance) noexcept
 {
+    constexpr double softness = 6; // a colour at half the range keeps 99.7 % of its saturation
     const double grey = std::clamp(luminance, 0.0, 1.0);
-    double keep = 1;
+    double above = 0, keep = 1;
     for (const double c : {colour.r, colour.g, colour.b}) {
-        if (c > 1)
-            keep = std::min(keep, (1 - grey) / (c - grey));
+        if (c > grey)
+            above += std::pow((c - grey) / (1 - grey), softness);
         else if (c < 0)
             keep = std::min(keep, grey / (grey - c));
     }
+    keep = std::min(keep, std::pow(1 + above, -1 / softness));
     return Spectrum::grey(grey) + (colour - Spectrum::grey(grey)) * keep;
 }
 
@@ -79,7 +82,9 @@ Spectrum displayed(Spectrum radiance, const Exposure& exposure) noexcept
         return {};
     if (!std::isfinite(y))
         return Spectrum::grey(1);
-    const double shown = std::min(1.0, y * (1 + y / (exposure.white * exposure.white)) / (1 + y));
+    const double shown = y * (1 + y / (exposure.white * exposure.white)) / (1 + y);
+    if (!(shown < 1))
+        return Spectrum::grey(1);
     return into_display_range(to_rec709(radiance * (exposure.factor * shown / y)), shown);
 }
 

@@ -18,7 +18,10 @@ struct SunPosition {
     double azimuth_deg;  ///< clockwise from north
 };
 
-/// Error: 0.01 degrees from 1950 to 2050 (tests/unit/sky).
+/// The sun from a place at sea level, without refraction.
+/// Error: 0.0013 degrees from 1950 to 2050, against an ephemeris at 4000 random places and times (a dozen of them in
+///        tests/unit/sky).
+/// Source  VSOP87, its terms above 1 arc second; Meeus 1998 (nutation, aberration, sidereal time)
 SunPosition sun_position(const PlaceAndTime& when);
 /// x east, y north, z up, turned so that the model's north points to north_deg counter-clockwise from +y.
 Direction sun_direction(const SunPosition& sun, double north_deg = 0);
@@ -31,11 +34,12 @@ struct SkyModel {
     CieSky kind = CieSky::overcast;
     bool with_sun = false;
     Direction to_sun{0, 0, 1};
-    double sun_radiance = 0;  ///< W/(m^2 sr) of a disc of 0.533 degrees
+    double sun_radiance = 0;  ///< W/(m^2 sr) of a disc of sun_full_angle_deg; set whenever the sun is up
     double zenith = 0;        ///< W/(m^2 sr)
     double ground = 0;        ///< W/(m^2 sr)
-    double normalization = 1;
+    double normalization = 1; ///< of the brightness function of the clear and intermediate skies
 };
+/// The mean disc. gensky draws 0.5 degrees; make_sky() keeps the irradiance that its radiance gives with that disc.
 inline constexpr double sun_full_angle_deg = 0.533;
 
 struct SkyOptions {
@@ -44,7 +48,12 @@ struct SkyOptions {
     double turbidity = 2.45;
     double ground_reflectance = 0.2;
 };
-/// Absolute luminance from the sun's altitude.
+/// Absolute luminance from the sun's altitude, as gensky has it: 203 lm/W for the sky and 208 lm/W for the sun.
+/// Overcast and uniform skies have no sun, nor has the night; under clear and intermediate skies the ground is lit by
+/// the sun even when `with_sun` leaves its disc out. There the model holds up to an altitude of 87 degrees: a higher
+/// sun is moved down to it, and `to_sun` says so.
+/// @param to_sun  unit
+/// @throws InputError for turbidity below 1, a ground reflectance outside [0, 1], a direction that is not unit
 SkyModel make_sky(const SkyOptions& options, const Direction& to_sun);
 
 /// Radiance of the sky (z >= 0) or the ground in a direction, W/(m^2 sr), without the sun's disc; as skybright.cal:

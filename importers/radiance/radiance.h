@@ -15,7 +15,7 @@ namespace lightwell {
 Scene read_radiance(const std::filesystem::path& file, Report& report);
 
 struct WriteOptions {
-    bool flat = false;             ///< expand every instance, so that one file says it all
+    bool flat = false;               ///< expand every instance, so that one file says it all
     double chord_tolerance_m = 1e-3; ///< for round shapes under maps that are no similarity
 };
 /// Writes `file`; unless flat, prototypes as NAME.parts/*.rad beside it, referred to by `instance`.

@@ -121,7 +121,7 @@ TEST(RayQueries, SphereFieldGivesTheHitsOfBruteForceNearAndFarFromTheOrigin)
             ASSERT_EQ(found, expected >= 0);
             if (found) {
                 EXPECT_EQ(static_cast<int>(hit.surface), expected);
-                EXPECT_EQ(hit.t, t);
+                EXPECT_NEAR(hit.t, t, 4e-16 * (1 + offset) + 1e-15 * t);
                 ++hits;
             }
         }

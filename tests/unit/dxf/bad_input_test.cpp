@@ -1,1 +1,143 @@
+#include "engine/base/errors.h"
+#include "tests/unit/dxf/dxf_text.h"
+
 #include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace lightwell::test {
+namespace {
+
+const std::string face = "0 3DFACE 5 2F 8 A-WALL 10 0 20 0 30 0 11 4 21 0 31 0 12 4 22 0 32 3 13 0 23 0 33 3";
+
+/// The message names the file and line and holds every one of these words.
+void expect_error(const std::string& content, const std::vector<std::string>& words)
+{
+    const std::string message = import_error(content);
+    EXPECT_NE(message.find(".dxf"), std::string::npos) << message;
+    for (const std::string& word : words)
+        EXPECT_NE(message.find(word), std::string::npos) << message << "\nexpected: " << word;
+}
+
+std::string bytes_of(const std::filesystem::path& file)
+{
+    std::ifstream in{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+TEST(DxfBadInput, NumbersThatAreNoneAreNamedWithLineLayerAndValue)
+{
+    for (const std::string value : {"nan", "inf", "1e999", "abc", "1,5", "--1"}) {
+        SCOPED_TRACE(value);
+        expect_error(drawing("", "0 3DFACE 8 A-WALL 10 0 20 0 30 " + value),
+                     {".dxf:41: 3DFACE on layer \"A-WALL\": group 30", "expected"});
+    }
+    expect_error(drawing("", face + " 62 red"), {"group 62 is \"red\"", "expected a whole number"});
+    expect_error(drawing("", face + " 62 1.5"), {"group 62 is \"1.5\"", "whole number"});
+}
+
+TEST(DxfBadInput, GroupCodesThatAreNoneAreNamedWithTheirLine)
+{
+    expect_error("0\nSECTION\n2\nENTITIES\nrubbish\nLINE\n0\nENDSEC\n0\nEOF\n", {".dxf:5", "\"rubbish\""});
+    expect_error("0\nSECTION\n2\nENTITIES\n99999\nLINE\n0\nENDSEC\n0\nEOF\n", {".dxf:5", "\"99999\"", "1071"});
+    EXPECT_NE(import_error("rubbish"), "");
+    EXPECT_NE(import_error(""), "");
+    EXPECT_NE(import_error("AC1032 is a DWG file"), "");
+}
+
+TEST(DxfBadInput, BlocksThatContainThemselvesAreNamedWithTheirChain)
+{
+    const auto block = [](const std::string& name, const std::string& inner) {
+        return "0 BLOCK 2 " + name + " 10 0 20 0 30 0 0 INSERT 2 " + inner + " 0 ENDBLK ";
+    };
+    expect_error(drawing(block("SELF", "SELF"), "0 INSERT 2 SELF"), {"SELF > SELF", "contains itself"});
+    expect_error(drawing(block("A", "B") + block("B", "C") + block("C", "A"), "0 INSERT 2 A"), {"A > B > C > A"});
+    std::string deep;
+    for (int i = 0; i < 1000; ++i)
+        deep += block(std::to_string(i), std::to_string(i + 1));
+    expect_error(drawing(deep, "0 INSERT 2 0"), {"more than 64 deep"});
+    EXPECT_EQ(import_error(drawing(block("SELF", "SELF"), face)), ""); // nothing shows it
+}
+
+TEST(DxfBadInput, AbsurdArraysAreRefusedAndDoubledCopiesAreNot)
+{
+    const std::string block = "0 BLOCK 2 B 10 0 20 0 30 0 " + face + " 0 ENDBLK";
+    expect_error(drawing(block, "0 INSERT 2 B 8 A-CHAIR 70 32000 71 32000 44 1 45 1"),
+                 {"32000 x 32000", "A-CHAIR", "expected at most"});
+    expect_error(drawing(block, "0 INSERT 2 B 70 1e30 44 1"), {"1e+30", "expected at most"});
+    std::string many;
+    for (int i = 0; i < 6; ++i)
+        many += "0 INSERT 2 B 70 1000 71 1000 44 1 45 1 ";
+    expect_error(drawing(block, many), {"copies of blocks"});
+    const Imported same_place = imported_text(drawing(block, "0 INSERT 2 B 70 32000 71 -5 44 0"));
+    EXPECT_EQ(layer_areas(same_place).at("A-WALL").surfaces, 1u);
+}
+
+TEST(DxfBadInput, PolyfacesAndMeshesWithWrongIndicesAndSizesAreNamed)
+{
+    const std::string start = "0 POLYLINE 5 77 8 MESH 66 1 70 64 0 VERTEX 70 192 10 0 20 0 30 0 "
+                              "0 VERTEX 70 192 10 1 20 0 30 0 0 VERTEX 70 192 10 0 20 1 30 0 ";
+    expect_error(drawing("", start + "0 VERTEX 70 128 71 1 72 2 73 4 0 SEQEND"), {"vertex 4", "1 to 3", "MESH", "77"});
+    EXPECT_EQ(import_error(drawing("", start + "0 VERTEX 70 128 71 1 72 -2 73 3 0 SEQEND")), "");
+    const std::string grid = "0 POLYLINE 8 MESH 66 1 70 16 71 30000 72 30000 0 VERTEX 70 64 10 0 20 0 30 0 0 SEQEND";
+    expect_error(drawing("", grid), {"30000 x 30000", "has 1 vertices"});
+}
+
+TEST(DxfBadInput, DegenerateEntitiesAreSkippedWithAReasonAndAScaleOfZeroIsOne)
+{
+    const std::string block = "0 BLOCK 2 B 10 0 20 0 30 0 " + face + " 0 ENDBLK";
+    const Imported imported = imported_text(
+        drawing(block, "0 INSERT 2 B 42 0 0 LWPOLYLINE 90 0 39 1 0 CIRCLE 40 -1 39 1 0 ARC 40 0 39 1 "
+                       "0 LINE 10 1 20 1 11 1 21 1 39 1 0 SOLID 0 POLYLINE 39 1 0 SEQEND 0 3DFACE 0 UNHEARD-OF"));
+    EXPECT_EQ(imported.ledger.made_count(), 2u); // the insert and the face in its block
+    EXPECT_EQ(imported.ledger.read_count(), 10u);
+    EXPECT_TRUE(imported.report.has(Finding::repaired));
+    EXPECT_NEAR(layer_areas(imported).at("A-WALL").area_m2, 12, 1e-12);
+    EXPECT_NO_THROW(validate(imported.scene));
+}
+
+TEST(DxfBadInput, EveryCutEndsInOneErrorOrInAWholeDrawing)
+{
+    // A cut text file is either refused, or it was cut in the end mark after the last section.
+    for (const std::string name : {"entities_r12.dxf", "entities_r12_binary.dxf", "hidden.dxf", "inserts_binary.dxf"}) {
+        const std::string whole = bytes_of(std::filesystem::path{LIGHTWELL_ROOT} / "tests/fixtures/dxf" / name);
+        ASSERT_GT(whole.size(), 1000u);
+        std::size_t refused = 0, tried = 0;
+        for (std::size_t size = 0; size < whole.size(); size += 97, ++tried) {
+            const std::string message = import_error(whole.substr(0, size));
+            if (!message.empty()) {
+                ++refused;
+                EXPECT_NE(message.find(".dxf"), std::string::npos) << message;
+            }
+        }
+        EXPECT_GE(refused + 30, tried) << name; // whole sections may follow the entities
+        EXPECT_GT(refused, 0u);
+    }
+}
+
+TEST(DxfBadInput, RandomDamageNeverCrashes)
+{
+    std::uint32_t state = 12345;
+    const auto random = [&state] { return state = state * 1664525u + 1013904223u; };
+    for (const std::string name :
+         {"entities_r12.dxf", "entities_binary.dxf", "inserts.dxf", "entities_r12_binary.dxf"}) {
+        const std::string whole = bytes_of(std::filesystem::path{LIGHTWELL_ROOT} / "tests/fixtures/dxf" / name);
+        std::size_t refused = 0;
+        for (int round = 0; round < 150; ++round) {
+            std::string damaged = whole;
+            for (int i = 0; i < 10; ++i)
+                damaged[(random() >> 4) % damaged.size()] = static_cast<char>(random() >> 24);
+            const TemporaryFile file{damaged};
+            try {
+                validate(import_dxf(file.path(), {}).scene);
+            } catch (const InputError&) {
+                ++refused;
+            }
+        }
+        EXPECT_GT(refused, 0u) << name;
+    }
+}
+
+} // namespace
+} // namespace lightwell::test

@@ -198,15 +198,15 @@ TEST(Exr, ChangedBytesNeverCrash)
     const std::string whole = bytes_of(folder / "whole.exr");
     RandomStream random(7);
     int refused = 0;
-    for (int round = 0; round < 3000; ++round) {
+    for (int round = 0; round < 1000; ++round) {
         std::string changed = whole;
         for (int i = 0; i < 1 + round % 4; ++i) // most damage in the header, where it matters
             changed[random.bits() % (round % 3 == 0 ? whole.size() : 800)] = static_cast<char>(random.bits());
         write_bytes(folder / "changed.exr", changed);
         refused += reads_or_refuses(folder / "changed.exr") ? 0 : 1;
     }
-    EXPECT_GT(refused, 1000);
-    EXPECT_LT(refused, 3000);
+    EXPECT_GT(refused, 300);
+    EXPECT_LT(refused, 1000);
 }
 
 TEST(Exr, AbsurdSizesAreNamedBeforeAnythingIsAllocated)

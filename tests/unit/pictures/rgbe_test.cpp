@@ -313,7 +313,7 @@ TEST(Rgbe, TruncatedAndChangedFilesNeverCrash)
         EXPECT_NE(error_of([&] { read_text(folder, whole.substr(0, length)); }), "");
     RandomStream random(9);
     int refused = 0;
-    for (int round = 0; round < 3000; ++round) {
+    for (int round = 0; round < 1000; ++round) {
         std::string changed = whole;
         changed[random.bits() % (round % 2 == 0 ? whole.size() : 100)] = static_cast<char>(random.bits());
         try {
@@ -322,7 +322,7 @@ TEST(Rgbe, TruncatedAndChangedFilesNeverCrash)
             ++refused;
         }
     }
-    EXPECT_GT(refused, 300);
+    EXPECT_GT(refused, 100);
 }
 
 TEST(Rgbe, APictureWithoutColourIsRefused)

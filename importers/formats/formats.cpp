@@ -1,0 +1,27 @@
+#include "importers/formats/formats.h"
+
+#include "engine/base/errors.h"
+
+namespace lightwell {
+namespace {
+
+struct Format {
+    bool (*recognize)(const std::filesystem::path&);
+    Imported (*import)(const std::filesystem::path&, const ImportOptions&);
+};
+
+/// From the most to the least certain mark: glTF has a magic number or an asset, DXF its section tags, OBJ only words.
+constexpr Format formats[] = {{recognize_gltf, import_gltf}, {recognize_dxf, import_dxf}, {recognize_obj, import_obj}};
+
+} // namespace
+
+Imported import_file(const std::filesystem::path& file, const ImportOptions& options)
+{
+    for (const Format& format : formats)
+        if (format.recognize(file))
+            return format.import(file, options);
+    throw InputError(file.filename().string(), "content is none of the formats that can be read",
+                     "expected DXF, OBJ, glTF (.gltf) or GLB");
+}
+
+} // namespace lightwell

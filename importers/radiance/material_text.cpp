@@ -1,0 +1,229 @@
+#include "importers/radiance/material_text.h"
+
+#include "engine/base/text.h"
+#include "importers/radiance/modifier_table.h"
+#include "importers/radiance/transform_words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace lightwell::scene_text {
+namespace {
+
+constexpr std::string_view surface_types[] = {"polygon", "sphere", "bubble", "cone", "cup",     "cylinder",
+                                              "tube",    "ring",   "source", "mesh", "instance"};
+constexpr std::string_view material_types[] = {"plastic", "metal", "trans", "dielectric", "glass",
+                                               "mirror",  "light", "illum", "glow",       "spotlight"};
+constexpr std::string_view pattern_types[] = {"brightfunc", "brightdata", "brighttext", "colorfunc",
+                                              "colordata",  "colorpict",  "colortext",  "spectrum",
+                                              "specfile",   "specfunc",   "specdata",   "specpict"};
+constexpr std::string_view texture_types[] = {"texfunc", "texdata"};
+constexpr std::string_view unmodelled_types[] = {
+    "plastic2",  "metal2",   "trans2",     "plasfunc", "metfunc",  "transfunc", "plasdata",  "metdata",
+    "transdata", "BRTDfunc", "BSDF",       "aBSDF",    "WGMDfunc", "ashik2",    "interface", "mist",
+    "prism1",    "prism2",   "antimatter", "mixfunc",  "mixdata",  "mixtext",   "mixpict"};
+
+template <std::size_t N>
+bool contains(const std::string_view (&list)[N], std::string_view type) noexcept
+{
+    return std::find(std::begin(list), std::end(list), type) != std::end(list);
+}
+
+void expect_numbers(const Primitive& primitive, const std::string& place, std::size_t least, std::size_t most,
+                    const char* meaning)
+{
+    const std::size_t found = primitive.numbers.size();
+    if (found < least || found > most)
+        throw InputError{place,
+                         fmt::format("{} numbers, expected {}", found,
+                                     least == most ? fmt::format("{}", least) : fmt::format("{} or {}", least, most)),
+                         fmt::format("they are {}", meaning)};
+}
+
+Spectrum colour(const Primitive& primitive)
+{
+    return {primitive.numbers[0], primitive.numbers[1], primitive.numbers[2]};
+}
+
+Material reflector_of(const Primitive& p, const std::string& place)
+{
+    const char* const surface = "red green blue specularity roughness";
+    const auto& n = p.numbers;
+    if (p.type == "plastic" || p.type == "metal") {
+        expect_numbers(p, place, 5, 5, surface);
+        if (p.type == "plastic")
+            return Plastic{colour(p), n[3], n[4]};
+        return Metal{colour(p), n[3], n[4]};
+    }
+    if (p.type == "trans") {
+        expect_numbers(p, place, 7, 7, "red green blue specularity roughness transmission transmitted-specular");
+        return Trans{colour(p), n[3], n[4], n[5], n[6]};
+    }
+    if (p.type == "dielectric") {
+        expect_numbers(p, place, 5, 5, "transmission per metre red green blue, refractive index, Hartmann's constant");
+        return Dielectric{colour(p), n[3], n[4]};
+    }
+    expect_numbers(p, place, 3, 4, "transmissivity red green blue, and the refractive index if it is not 1.52");
+    return Glass{colour(p), n.size() == 4 ? n[3] : Glass{}.index};
+}
+
+Material emitter_of(const Primitive& p, const std::string& place)
+{
+    const char* const radiance = "red green blue radiance in W/(m^2 sr)";
+    const auto& n = p.numbers;
+    if (p.type == "glow") {
+        expect_numbers(p, place, 4, 4, "red green blue radiance in W/(m^2 sr), greatest distance as a source");
+        return Glow{colour(p), n[3]};
+    }
+    if (p.type == "spotlight") {
+        expect_numbers(p, place, 7, 7, "red green blue radiance, full angle in degrees, x y z of the beam");
+        return Spotlight{colour(p), n[3], {n[4], n[5], n[6]}};
+    }
+    expect_numbers(p, place, 3, 3, radiance);
+    if (p.type == "light")
+        return Light{colour(p)};
+    std::string alternate = p.words.empty() ? "" : decoded_name(p.words[0]);
+    return Illum{colour(p), alternate == "void" ? "" : std::move(alternate)};
+}
+
+/// Turned about z as the transform words behind the function's file say.
+void turn_sky(SkyBrightness& sky, const Primitive& primitive, const std::string& place)
+{
+    const std::vector<std::string> words(primitive.words.begin() + 2, primitive.words.end());
+    std::size_t next = 0;
+    const std::vector<Placement> placements = read_placements(words, next, place);
+    if (next != words.size() || placements.size() != 1)
+        throw InputError{place, "the words after skybright.cal are no single transform", "turn it with -rz only"};
+    sky = turned(sky, placements.front().map, place);
+}
+
+void append_numbers(std::string& text, std::initializer_list<double> numbers)
+{
+    text += std::to_string(numbers.size());
+    for (const double number : numbers) {
+        text += ' ';
+        text += shortest(number);
+    }
+    text += '\n';
+}
+
+void append_head(std::string& text, const std::string& modifier, std::string_view type, const std::string& name)
+{
+    text.append(modifier).append(" ").append(type).append(" ").append(name).append("\n");
+}
+
+/// One overload a material: everything after the head.
+struct ArgumentWriter {
+    std::string& text;
+
+    void list(std::initializer_list<double> numbers, const std::string& word = {}) const
+    {
+        text += word.empty() ? "0\n0\n" : "1 " + word + "\n0\n";
+        append_numbers(text, numbers);
+    }
+    void operator()(const Plastic& m) const { list({m.colour.r, m.colour.g, m.colour.b, m.specularity, m.roughness}); }
+    void operator()(const Metal& m) const { list({m.colour.r, m.colour.g, m.colour.b, m.specularity, m.roughness}); }
+    void operator()(const Trans& m) const
+    {
+        list({m.colour.r, m.colour.g, m.colour.b, m.specularity, m.roughness, m.transmission, m.transmitted_specular});
+    }
+    void operator()(const Dielectric& m) const
+    {
+        list({m.transmission_per_m.r, m.transmission_per_m.g, m.transmission_per_m.b, m.index, m.hartmann});
+    }
+    void operator()(const Glass& m) const
+    {
+        if (m.index == Glass{}.index)
+            list({m.transmissivity.r, m.transmissivity.g, m.transmissivity.b});
+        else
+            list({m.transmissivity.r, m.transmissivity.g, m.transmissivity.b, m.index});
+    }
+    void operator()(const Mirror& m) const { list({m.reflectance.r, m.reflectance.g, m.reflectance.b}); }
+    void operator()(const Light& m) const { list({m.radiance.r, m.radiance.g, m.radiance.b}); }
+    void operator()(const Illum& m) const
+    {
+        list({m.radiance.r, m.radiance.g, m.radiance.b}, m.alternate.empty() ? "" : encoded_name(m.alternate));
+    }
+    void operator()(const Glow& m) const { list({m.radiance.r, m.radiance.g, m.radiance.b, m.max_radius_m}); }
+    void operator()(const Spotlight& m) const
+    {
+        list({m.radiance.r, m.radiance.g, m.radiance.b, m.full_angle_deg, m.aim.x, m.aim.y, m.aim.z});
+    }
+};
+
+} // namespace
+
+TypeClass classify(std::string_view type) noexcept
+{
+    if (contains(surface_types, type))
+        return TypeClass::surface;
+    if (contains(material_types, type))
+        return TypeClass::material;
+    if (contains(pattern_types, type))
+        return TypeClass::pattern;
+    if (contains(texture_types, type))
+        return TypeClass::texture;
+    if (contains(unmodelled_types, type))
+        return TypeClass::unmodelled_material;
+    return type == "alias" ? TypeClass::alias : TypeClass::unknown;
+}
+
+Material material_of(const Primitive& primitive, const std::string& place, Report& report)
+{
+    if (primitive.type == "mirror") {
+        expect_numbers(primitive, place, 3, 3, "red green blue reflectance");
+        if (!primitive.words.empty() && primitive.words[0] != "void")
+            report.add(Finding::unsupported, place,
+                       "what eyes see in place of a mirror (its word) is not modelled yet; they see the mirror");
+        return Mirror{colour(primitive)};
+    }
+    for (const std::string_view type : {"light", "illum", "glow", "spotlight"})
+        if (primitive.type == type)
+            return emitter_of(primitive, place);
+    return reflector_of(primitive, place);
+}
+
+std::optional<SkyBrightness> sky_brightness_of(const Primitive& primitive, const std::string& place)
+{
+    const auto& words = primitive.words;
+    if (primitive.type != "brightfunc" || words.size() < 2 || words[0] != "skybr" || words[1] != "skybright.cal")
+        return std::nullopt;
+    const auto& n = primitive.numbers;
+    const char* const meaning =
+        "they are 1 clear, 2 overcast, 3 uniform or 4 intermediate; zenith; ground; for 1 and 4 also "
+        "normalization and x y z of the sun";
+    const double kind = n.empty() ? 0 : n[0];
+    const bool with_sun = kind == 1 || kind == 4;
+    if (!(with_sun || kind == 2 || kind == 3) || n.size() < (with_sun ? 7u : 3u) || n.size() > 7)
+        throw InputError{place, fmt::format("{} numbers, the first {}, are no sky", n.size(), kind), meaning};
+    SkyBrightness sky;
+    sky.kind = static_cast<SkyBrightness::Kind>(static_cast<int>(kind));
+    sky.zenith = n[1];
+    sky.ground = n[2];
+    sky.normalization = n.size() > 3 ? n[3] : 1;
+    if (n.size() == 7)
+        sky.to_sun = normalized({n[4], n[5], n[6]});
+    if (!(sky.zenith >= 0) || !(sky.ground >= 0) || (with_sun && !(sky.normalization > 0)) || length(sky.to_sun) == 0)
+        throw InputError{place, "a brightness is negative, or the sun has no direction", meaning};
+    turn_sky(sky, primitive, place);
+    return sky;
+}
+
+void append_material(std::string& text, const std::string& modifier, const std::string& name, const Material& material)
+{
+    append_head(text, modifier, type_name(material), name);
+    std::visit(ArgumentWriter{text}, material);
+}
+
+void append_sky_brightness(std::string& text, const std::string& modifier, const std::string& name,
+                           const SkyBrightness& sky)
+{
+    append_head(text, modifier, "brightfunc", name);
+    text += "2 skybr skybright.cal\n0\n";
+    const Direction& sun = sky.to_sun;
+    append_numbers(text,
+                   {static_cast<double>(sky.kind), sky.zenith, sky.ground, sky.normalization, sun.x, sun.y, sun.z});
+}
+
+} // namespace lightwell::scene_text

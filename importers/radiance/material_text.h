@@ -1,0 +1,27 @@
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "importers/radiance/words.h"
+
+#include <optional>
+
+namespace lightwell::scene_text {
+
+/// What a type word of the scene language stands for.
+enum class TypeClass { surface, material, pattern, texture, unmodelled_material, alias, unknown };
+TypeClass classify(std::string_view type) noexcept;
+
+/// The material that the arguments describe; numbers are checked by validate_material().
+/// @throws InputError for a wrong number of arguments, showing what they are
+Material material_of(const Primitive& primitive, const std::string& place, Report& report);
+/// The sky's brightness when the pattern is `skybr skybright.cal`, else nothing.
+/// @throws InputError for arguments that are no sky
+std::optional<SkyBrightness> sky_brightness_of(const Primitive& primitive, const std::string& place);
+
+/// `TYPE NAME` and its arguments, as four lines.
+/// @param modifier, name  words, already encoded
+void append_material(std::string& text, const std::string& modifier, const std::string& name, const Material& material);
+void append_sky_brightness(std::string& text, const std::string& modifier, const std::string& name,
+                           const SkyBrightness& sky);
+
+} // namespace lightwell::scene_text

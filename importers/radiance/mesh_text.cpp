@@ -1,0 +1,187 @@
+#include "importers/radiance/mesh_text.h"
+
+#include "engine/base/errors.h"
+#include "engine/base/files.h"
+#include "engine/base/text.h"
+#include "importers/radiance/surface_text.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+
+namespace lightwell::scene_text {
+namespace {
+
+/// Indices into points, texture coordinates and normals; -1: none.
+using Corner = std::array<long long, 3>;
+
+class MeshReader {
+public:
+    explicit MeshReader(std::string file) : file_(std::move(file)) {}
+
+    void line(std::string_view text)
+    {
+        ++line_;
+        const std::size_t hash = std::min(text.find('#'), text.size());
+        words_ = split(text.substr(0, hash), " \t\r");
+        if (words_.empty())
+            return;
+        if (words_[0] == "v")
+            points_.push_back(vector());
+        else if (words_[0] == "vn")
+            normals_.push_back(unit_vector(vector()));
+        else if (words_[0] == "vt")
+            texture_.push_back({number(1), words_.size() > 2 ? number(2) : 0});
+        else if (words_[0] == "f")
+            face();
+    }
+
+    Mesh finish()
+    {
+        if (mesh_.triangles.empty())
+            throw InputError{file_, "no faces", "a mesh file has `v` and `f` lines"};
+        // Only complete lists are of use: one corner without a normal leaves them all without.
+        if (mesh_.normals.size() != mesh_.points.size())
+            mesh_.normals.clear();
+        if (mesh_.texture.size() != 2 * mesh_.points.size())
+            mesh_.texture.clear();
+        return std::move(mesh_);
+    }
+
+private:
+    [[noreturn]] void reject(const std::string& what, const std::string& hint = {}) const
+    {
+        throw InputError{fmt::format("{}:{}", file_, line_), what, hint};
+    }
+
+    double number(std::size_t i) const
+    {
+        const auto value = i < words_.size() ? parse_double(words_[i]) : std::nullopt;
+        if (!value || !std::isfinite(*value))
+            reject(fmt::format("number {} of `{}` is \"{}\", expected a finite number", i, words_[0],
+                               i < words_.size() ? words_[i] : "nothing"));
+        return *value;
+    }
+    Vec3 vector() const { return {number(1), number(2), number(3)}; }
+
+    Corner corner(std::string_view word) const
+    {
+        const std::size_t sizes[] = {points_.size(), texture_.size(), normals_.size()};
+        Corner result{-1, -1, -1};
+        for (std::size_t k = 0, begin = 0; k < 3 && begin <= word.size(); ++k) {
+            const std::size_t end = std::min(word.find('/', begin), word.size());
+            const std::string_view token = word.substr(begin, end - begin);
+            begin = end + 1;
+            if (token.empty() && k > 0)
+                continue;
+            const auto index = parse_integer(token);
+            const long long size = static_cast<long long>(sizes[k]);
+            if (!index || *index == 0 || *index > size || *index < -size)
+                reject(fmt::format("face corner \"{}\": expected an index from 1 to {}", word, size));
+            result[k] = *index > 0 ? *index - 1 : size + *index;
+        }
+        return result;
+    }
+
+    std::uint32_t vertex(const Corner& corner)
+    {
+        const auto [entry, fresh] = known_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.points.size()));
+        if (fresh) {
+            mesh_.points.push_back(points_[static_cast<std::size_t>(corner[0])]);
+            if (corner[1] >= 0) {
+                const auto& uv = texture_[static_cast<std::size_t>(corner[1])];
+                mesh_.texture.insert(mesh_.texture.end(), {uv[0], uv[1]});
+            }
+            if (corner[2] >= 0)
+                mesh_.normals.push_back(normals_[static_cast<std::size_t>(corner[2])]);
+        }
+        return entry->second;
+    }
+
+    void face()
+    {
+        std::vector<std::uint32_t> corners;
+        for (std::size_t i = 1; i < words_.size(); ++i)
+            corners.push_back(vertex(corner(words_[i])));
+        if (corners.size() < 3)
+            reject(fmt::format("a face has {} corners, expected at least 3", corners.size()));
+        if (corners.size() > 3 && !convex(corners))
+            reject("a face with more than three corners is not convex", "cut it into triangles");
+        for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+            mesh_.triangles.insert(mesh_.triangles.end(), {corners[0], corners[i], corners[i + 1]});
+    }
+
+    bool convex(const std::vector<std::uint32_t>& corners) const
+    {
+        std::vector<Point> outline;
+        for (const std::uint32_t c : corners)
+            outline.push_back(mesh_.points[c]);
+        const Vec3 area = polygon_area_vector(outline.data(), outline.size());
+        const std::size_t n = outline.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec3 before = outline[i] - outline[(i + n - 1) % n], after = outline[(i + 1) % n] - outline[i];
+            constexpr double straight = 1e-6; // sine of a bend that rounding of the file can make
+            if (dot(cross(before, after), area) < -straight * length(before) * length(after) * length(area))
+                return false;
+        }
+        return true;
+    }
+
+    std::string file_;
+    std::size_t line_ = 0;
+    std::vector<std::string_view> words_;
+    std::vector<Point> points_, normals_;
+    std::vector<std::array<double, 2>> texture_;
+    std::map<Corner, std::uint32_t> known_;
+    Mesh mesh_;
+};
+
+void append_line(std::string& text, const char* keyword, std::initializer_list<double> numbers)
+{
+    text += keyword;
+    for (const double number : numbers)
+        text.append(" ").append(shortest(number));
+    text += '\n';
+}
+
+} // namespace
+
+Mesh read_mesh_text(const std::filesystem::path& file)
+{
+    const MappedFile mapped(file);
+    MeshReader reader(file.filename().string());
+    std::string_view rest = mapped.bytes();
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        reader.line(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return reader.finish();
+}
+
+std::string mesh_text(const Mesh& mesh)
+{
+    std::string text = "# triangles of one mesh, in metres; written by Lightwell\n";
+    for (const Point& p : mesh.points)
+        append_line(text, "v", {p.x, p.y, p.z});
+    for (std::size_t i = 0; i + 1 < mesh.texture.size(); i += 2)
+        append_line(text, "vt", {mesh.texture[i], mesh.texture[i + 1]});
+    for (const Direction& n : mesh.normals)
+        append_line(text, "vn", {n.x, n.y, n.z});
+    const bool texture = !mesh.texture.empty(), normals = !mesh.normals.empty();
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const std::string index = std::to_string(mesh.triangles[i] + 1);
+        text += i % 3 == 0 ? "f " : " ";
+        text += index;
+        if (texture || normals)
+            text.append("/").append(texture ? index : "");
+        if (normals)
+            text.append("/").append(index);
+        if (i % 3 == 2)
+            text += '\n';
+    }
+    return text;
+}
+
+} // namespace lightwell::scene_text

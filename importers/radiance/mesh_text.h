@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/scene/surface.h"
+
+#include <filesystem>
+#include <string>
+
+namespace lightwell::scene_text {
+
+/// The triangles of a Wavefront file: `v`, `vn`, `vt` and `f` lines; faces with more corners are cut from their first
+/// corner when they are convex. Groups, materials and smoothing are skipped: a mesh has one modifier.
+/// @throws InputError with file and line: NaN, indices out of range, concave faces
+Mesh read_mesh_text(const std::filesystem::path& file);
+
+/// The mesh as a Wavefront file, from which read_mesh_text() makes the same triangles, bit for bit.
+std::string mesh_text(const Mesh& mesh);
+
+} // namespace lightwell::scene_text

@@ -1,0 +1,162 @@
+#include "importers/radiance/modifier_table.h"
+
+#include "engine/base/errors.h"
+#include "importers/radiance/place_surface.h"
+
+#include <cstring>
+
+namespace lightwell::scene_text {
+namespace {
+
+/// Equal keys: equal name, kind, numbers to the bit, and neighbours.
+class KeyWriter {
+public:
+    std::string key;
+
+    void number(double value)
+    {
+        char bytes[sizeof value];
+        std::memcpy(bytes, &value, sizeof value);
+        key.append(bytes, sizeof bytes);
+    }
+    void vector(const Vec3& v)
+    {
+        number(v.x);
+        number(v.y);
+        number(v.z);
+    }
+    void spectrum(const Spectrum& s)
+    {
+        number(s.r);
+        number(s.g);
+        number(s.b);
+    }
+    void operator()(const Alias& a) { number(a.target); }
+    void operator()(const Inherited&) {}
+    void operator()(const SkyBrightness& s)
+    {
+        number(static_cast<double>(s.kind));
+        number(s.zenith);
+        number(s.ground);
+        number(s.normalization);
+        vector(s.to_sun);
+    }
+    void operator()(const Material& m)
+    {
+        number(static_cast<double>(m.index()));
+        std::visit(*this, m);
+    }
+    void operator()(const Plastic& m) { surface(m.colour, m.specularity, m.roughness); }
+    void operator()(const Metal& m) { surface(m.colour, m.specularity, m.roughness); }
+    void operator()(const Trans& m)
+    {
+        surface(m.colour, m.specularity, m.roughness);
+        number(m.transmission);
+        number(m.transmitted_specular);
+    }
+    void operator()(const Dielectric& m) { surface(m.transmission_per_m, m.index, m.hartmann); }
+    void operator()(const Glass& m) { surface(m.transmissivity, m.index, 0); }
+    void operator()(const Mirror& m) { spectrum(m.reflectance); }
+    void operator()(const Light& m) { spectrum(m.radiance); }
+    void operator()(const Illum& m)
+    {
+        spectrum(m.radiance);
+        key += m.alternate;
+    }
+    void operator()(const Glow& m) { surface(m.radiance, m.max_radius_m, 0); }
+    void operator()(const Spotlight& m)
+    {
+        surface(m.radiance, m.full_angle_deg, 0);
+        vector(m.aim);
+    }
+
+private:
+    void surface(const Spectrum& s, double a, double b)
+    {
+        spectrum(s);
+        number(a);
+        number(b);
+    }
+};
+
+std::string key_of(const Modifier& modifier)
+{
+    KeyWriter writer;
+    writer.key = modifier.name + '\0' + std::to_string(modifier.parent) + ' ' + std::to_string(modifier.what.index());
+    std::visit(writer, modifier.what);
+    return std::move(writer.key);
+}
+
+Spectrum power(const Spectrum& s, double exponent)
+{
+    return {std::pow(s.r, exponent), std::pow(s.g, exponent), std::pow(s.b, exponent)};
+}
+
+Material transformed(const Material& material, const Affine& map, bool scale_materials)
+{
+    const double scale = scale_materials ? length(map.x) : 1;
+    if (const auto* spot = std::get_if<Spotlight>(&material))
+        return Spotlight{spot->radiance, spot->full_angle_deg, map.vector(spot->aim)};
+    if (const auto* glow = std::get_if<Glow>(&material))
+        return Glow{glow->radiance, glow->max_radius_m * scale};
+    if (const auto* body = std::get_if<Dielectric>(&material); body != nullptr && scale != 1)
+        return Dielectric{power(body->transmission_per_m, 1 / scale), body->index, body->hartmann};
+    return material;
+}
+
+} // namespace
+
+SkyBrightness turned(SkyBrightness sky, const Affine& map, const std::string& place)
+{
+    constexpr double upright = 1e-9; // radians: rounding of the transform, not a tilt
+    if (!(length(cross(map.z, Vec3{0, 0, 1})) <= upright * length(map.z) && map.z.z > 0))
+        throw InputError{place, "the transform tilts a sky", "turn skies about z only"};
+    sky.to_sun = normalized(map.vector(sky.to_sun));
+    return sky;
+}
+
+std::optional<Meaning> Scope::find(std::string_view name)
+{
+    if (const auto entry = own_.find(name); entry != own_.end())
+        return entry->second;
+    if (outer_ == nullptr)
+        return std::nullopt;
+    const std::optional<Meaning> found = outer_->find(name);
+    seen_outside_.try_emplace(std::string(name), found);
+    return found;
+}
+
+ModifierTable::ModifierTable(Scene& scene) : scene_(scene)
+{
+    for (std::size_t i = 0; i < scene.modifiers.size(); ++i)
+        known_.try_emplace(key_of(scene.modifiers[i]), static_cast<ModifierId>(i));
+}
+
+ModifierId ModifierTable::add(Modifier modifier)
+{
+    const auto [entry, fresh] = known_.try_emplace(key_of(modifier), void_modifier);
+    if (fresh)
+        entry->second = scene_.add_modifier(std::move(modifier));
+    return entry->second;
+}
+
+ModifierId transformed(const Scene& scene, ModifierTable& table, ModifierId id, const Affine& map, bool scale_materials,
+                       const std::string& place)
+{
+    if (id == void_modifier || is_translation(map))
+        return id;
+    // By index, since the table's additions move the scene's modifiers.
+    const auto original = [&]() -> const Modifier& { return scene.modifiers[static_cast<std::size_t>(id)]; };
+    const ModifierId parent = transformed(scene, table, original().parent, map, scale_materials, place);
+    if (const auto* alias = std::get_if<Alias>(&original().what)) {
+        const Alias changed{transformed(scene, table, alias->target, map, scale_materials, place)};
+        return table.add({original().name, changed, parent});
+    }
+    if (const auto* sky = std::get_if<SkyBrightness>(&original().what))
+        return table.add({original().name, turned(*sky, map, place), parent});
+    if (const auto* material = std::get_if<Material>(&original().what))
+        return table.add({original().name, transformed(*material, map, scale_materials), parent});
+    return table.add({original().name, Inherited{}, parent});
+}
+
+} // namespace lightwell::scene_text

@@ -1,0 +1,107 @@
+#pragma once
+
+#include "importers/radiance/modifier_table.h"
+#include "importers/radiance/transform_words.h"
+#include "importers/radiance/words.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace lightwell::scene_text {
+
+/// Reads one scene: the first file and every file that it refers to.
+class SceneReader {
+public:
+    SceneReader(const std::filesystem::path& file, Report& report);
+    Scene read();
+
+private:
+    /// A file that is being read; the chain of them leads back to the first.
+    struct OpenFile {
+        const OpenFile* from;
+        std::filesystem::path path; ///< canonical
+        Words words;
+        std::string last_modifier = {}; ///< consecutive surfaces mostly share theirs
+        Meaning last_meaning = {};
+        bool last_known = false;
+    };
+    /// Where primitives go: the part that is being filled and the names that are known.
+    struct Target {
+        Part& part;
+        Scope& scope;
+        bool first_file = false; ///< views and grids count
+    };
+    /// Files included with a transform, read once in their own frame and then placed again and again.
+    struct Fragment {
+        Part part;                              ///< empty when it became a prototype
+        std::optional<std::uint32_t> prototype; ///< set when it is shared by instances
+        std::unique_ptr<Scope> scope;
+        bool turns = false, scales = false; ///< has beams, skies or distant sources; materials that know lengths
+    };
+    /// What a problem a name has when it is used.
+    struct Problem {
+        std::string place, what;
+    };
+    struct Xform {
+        std::vector<Placement> placements;
+        std::optional<std::string> name, modifier;
+        std::vector<std::filesystem::path> files;
+        bool plain = false; ///< nothing but the files
+    };
+
+    void read_file(const std::filesystem::path& path, const OpenFile* from, const std::string& place, Target target);
+    void read_primitive(OpenFile& file, Primitive& primitive, Target target);
+    void read_comment(OpenFile& file, std::string_view comment, Target target);
+    void read_grid(const std::string& place, const std::vector<std::string_view>& fields);
+
+    // modifiers
+    void define(OpenFile& file, const Primitive& primitive, Target target);
+    void define_alias(OpenFile& file, const Primitive& primitive, Target target);
+    void define_pattern(OpenFile& file, const Primitive& primitive, const Meaning& parent, Target target);
+    void define_material(OpenFile& file, const Primitive& primitive, Meaning parent, Target target);
+    Meaning problem(const std::string& place, const std::string& what);
+    Meaning meaning_of(OpenFile& file, const Primitive& primitive, std::string_view name, Target target);
+    ModifierId usable(OpenFile& file, const Primitive& primitive, const Meaning& meaning);
+
+    // references to other files
+    void add_instance(OpenFile& file, const Primitive& primitive, Target target);
+    void add_mesh(OpenFile& file, const Primitive& primitive, Target target);
+    std::uint32_t prototype_of_file(const std::filesystem::path& path, OpenFile& file, const std::string& place);
+    std::uint32_t prototype_of_mesh(const std::filesystem::path& path, ModifierId modifier);
+    std::uint32_t with_modifier(std::uint32_t prototype, ModifierId modifier);
+    std::shared_ptr<const Mesh> mesh(const std::filesystem::path& path);
+    std::filesystem::path find(const std::string& name, const OpenFile& file, const std::string& place) const;
+
+    // !xform
+    void run(OpenFile& file, const std::string& command, const std::string& place, Target target);
+    std::vector<Xform> parse_xform(const std::vector<std::string>& words, const OpenFile& file,
+                                   const std::string& place) const;
+    Xform parse_one_xform(const std::vector<std::string>& words, const OpenFile& file, const std::string& place) const;
+    void include(const Xform& xform, OpenFile& file, const std::string& place, Target target);
+    Fragment& fragment(const std::vector<std::filesystem::path>& files, OpenFile& file, const std::string& place,
+                       Target target);
+    void describe(Fragment& fragment) const;
+    void place_fragment(Fragment& fragment, const Placement& placement, const std::string& prefix,
+                        const std::optional<ModifierId>& modifier, const std::string& place, Target target);
+    void expand(const Part& part, const Affine& map, const std::string& prefix,
+                const std::optional<ModifierId>& modifier, const std::string& place, Part& to);
+    const Part& part_of(const Fragment& fragment) const;
+
+    std::filesystem::path first_file_;
+    Report& report_;
+    Scene scene_;
+    ModifierTable table_;
+    Scope scope_;
+    std::vector<Problem> problems_;
+    std::vector<std::pair<bool, bool>> prototype_changes_; ///< for each prototype: Fragment's turns and scales
+    std::map<std::filesystem::path, std::uint32_t> file_prototypes_;
+    std::map<std::pair<std::filesystem::path, ModifierId>, std::uint32_t> mesh_prototypes_;
+    std::map<std::pair<std::uint32_t, ModifierId>, std::uint32_t> remade_prototypes_;
+    std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
+    std::map<std::vector<std::filesystem::path>, std::vector<std::unique_ptr<Fragment>>> fragments_;
+    std::size_t expanded_ = 0; ///< surfaces that transforms have copied
+};
+
+} // namespace lightwell::scene_text
