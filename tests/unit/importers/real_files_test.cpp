@@ -71,6 +71,34 @@ std::size_t check_folder(const char* folder, const char* extension,
     return checked;
 }
 
+TEST(RealFiles, DroppingEveryLayerLeavesNothingMade)
+{
+    if (!std::filesystem::exists(shared_files() / "obj"))
+        GTEST_SKIP() << "no models beside the repository";
+    const auto dropped = [](Imported imported) {
+        const std::size_t read = imported.ledger.read_count();
+        LayerMap everything;
+        everything.default_material = "void";
+        apply_layer_map(imported, everything);
+        EXPECT_EQ(expanded_count(imported.scene), 0u);
+        EXPECT_EQ(imported.ledger.read_count(), read);
+        return imported.ledger.made_count();
+    };
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(shared_files() / "obj")) {
+        if (entry.path().extension() != ".obj" || entry.file_size() > (3u << 20))
+            continue;
+        SCOPED_TRACE(entry.path().string());
+        try {
+            EXPECT_EQ(dropped(import_obj(entry.path(), {})), 0u);
+            ++files;
+        } catch (const InputError&) {
+            // Refused by its importer, whose tests decide whether rightly.
+        }
+    }
+    EXPECT_GE(files, 5u);
+}
+
 TEST(RealFiles, ProposedMapsReadBackAndApplyToDrawings)
 {
     if (!std::filesystem::exists(shared_files() / "dxf"))
