@@ -100,7 +100,8 @@ constexpr Idea ideas[] = {
     {"pole", "=pole =poles =post housing =mast gehause gehaeuse 灯杆"},
     // --- glass and shading
     {"glass", "glass glas verre verres vidrio vidrios vetro vetri cristal cristales 玻璃"},
-    {"glazing", "glazing =glaz glazed verglasung vitrage vitrages vitre vitree vitrees vitrine acristalamiento vetrata "
+    {"glazing", "glazing =glaz glazed verglasung isolierglas isolierverglasung vitrage vitrages vitre vitree vitrees "
+                "vitrine acristalamiento vetrata "
                 "vetrate 门窗玻璃"},
     {"frosted", "frosted sandblasted etched obscure obscured satin satinato satiniert milchglas mattglas depoli opaco "
                 "esmerilado 磨砂"},
@@ -201,6 +202,7 @@ constexpr Idea ideas[] = {
     {"road",
      "=road roads street driveway parking =pkng =pvmt strasse strassen fahrbahn parkplatz route chaussee voirie "
      "calle carretera estacionamiento strada strade parcheggio 道路 马路 停车场"},
+    {"park", "=park =parks"},
     {"paving", "paving pavement pavers sidewalk walk walkway footpath gehweg pflaster pflasterung trottoir acera "
                "marciapiede terrace terrasse terraza terrazza =patio 人行道 铺装 广场"},
     {"gravel", "gravel kies schotter gravier grava ghiaia 砾石 碎石"},

@@ -106,10 +106,18 @@ ObjBuilder::ObjBuilder(const ObjFile& file, const Affine& to_metres, const std::
 void ObjBuilder::build()
 {
     imported_.scene.root.surfaces.reserve(file_.faces.size());
-    for (const ObjFace& face : file_.faces)
+    std::vector<std::size_t> made_in_state(file_.states.size());
+    for (const ObjFace& face : file_.faces) {
+        const std::size_t before = imported_.ledger.made_count();
         add_face(face);
+        made_in_state[face.state] += imported_.ledger.made_count() - before;
+    }
     finish_meshes(smooth_meshes_);
     finish_meshes(flat_meshes_);
+    imported_.made_with_key.assign(imported_.keys.size(), 0);
+    for (std::size_t state = 0; state < made_in_state.size(); ++state)
+        if (modifiers_[state])
+            imported_.made_with_key[static_cast<std::size_t>(*modifiers_[state])] += made_in_state[state];
     write_notes();
 }
 

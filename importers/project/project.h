@@ -13,7 +13,7 @@ namespace lightwell {
 
 struct ProjectInputs {
     std::vector<std::filesystem::path> files; ///< at least one; relative paths count from the project's folder
-    std::filesystem::path map;                ///< empty: materials are proposed by name
+    std::filesystem::path map;                ///< empty: none, as apply_layer_map() treats an empty map
     std::string unit;                         ///< empty: what the file says
     std::string up;                           ///< "", "y" or "z"
 };

@@ -36,8 +36,8 @@ TEST(Units, WhatIsNoUnitIsRefusedWithTheList)
 TEST(Units, InsunitsFollowTheReference)
 {
     // Autodesk DXF reference, $INSUNITS.
-    const double expected[] = {0,      0.0254, 0.3048, 1609.344, 1e-3, 1e-2, 1,    1000,        2.54e-8,
-                               2.54e-5, 0.9144, 1e-10,  1e-9,     1e-6, 0.1,  10,   100,         1e9};
+    const double expected[] = {0,       0.0254, 0.3048, 1609.344, 1e-3, 1e-2, 1,  1000, 2.54e-8,
+                               2.54e-5, 0.9144, 1e-10,  1e-9,     1e-6, 0.1,  10, 100,  1e9};
     for (int code = 0; code < 18; ++code)
         EXPECT_DOUBLE_EQ(unit_of_insunits(code).value, expected[code]) << code;
     EXPECT_NEAR(unit_of_insunits(18).value, 149597870700.0, 1);

@@ -190,6 +190,25 @@ TEST_F(ProjectFile, AMissingFileIsNamed)
     EXPECT_THROW(read_project(folder_), InputError);
 }
 
+TEST(SampleProjects, AreAllAccepted)
+{
+    std::size_t projects = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(LIGHTWELL_ROOT "/samples")) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with("project") || entry.path().extension() != ".toml")
+            continue;
+        ++projects;
+        SCOPED_TRACE(entry.path().string());
+        Project project;
+        EXPECT_NO_THROW(project = read_project(entry.path()));
+        for (const std::filesystem::path& file : project.inputs.files)
+            EXPECT_TRUE(std::filesystem::exists(file)) << file;
+        EXPECT_TRUE(project.inputs.map.empty() || std::filesystem::exists(project.inputs.map)) << project.inputs.map;
+        EXPECT_GE(project.views.size() + project.grids.size(), 1u);
+    }
+    EXPECT_GE(projects, 1u);
+}
+
 TEST(DateTimes, AreReadAsIso8601WritesThem)
 {
     const auto noon = parse_date_time("2026-06-21T12:00");
