@@ -284,6 +284,35 @@ TEST(Bsdf, ASmoothCoatingReflectsNearlyAllAtGrazingAngles)
     EXPECT_NEAR(grazing->weight.g, 0.99854, 1e-4);
 }
 
+TEST(Bsdf, DeltaLobesCarryTheSharesOfTheManual)
+{
+    // weight * probability of the mirror lobe, by counting choices on a fine grid.
+    const auto carried = [](const Material& m, double angle, bool straight) {
+        const Bsdf bsdf(m, true);
+        Spectrum sum;
+        constexpr int steps = 100000;
+        for (int i = 0; i < steps; ++i)
+            if (const auto s = bsdf.sample(at(angle), (i + 0.5) / steps, {0.3, 0.6}); s && s->delta)
+                if (s->straight == straight)
+                    sum += s->weight / steps;
+        return sum;
+    };
+    const double gain = std::exp(-5.85 * 0.5) - 0.00202943064; // at 60 degrees
+    const Spectrum colour{0.6, 0.4, 0.2};
+    const Spectrum metal = carried(Metal{colour, 0.8, 0}, 60, false);
+    const Spectrum plastic = carried(Plastic{colour, 0.05, 0}, 60, false);
+    const Spectrum uncoated = carried(Plastic{colour, 0.01, 0}, 60, false);
+    const Spectrum through = carried(Trans{colour, 0.05, 0, 0.5, 0.4}, 60, true);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(metal[c], gain + colour[c] * 0.8 * (1 - gain), 1e-4);
+        EXPECT_NEAR(plastic[c], 0.05 + gain * 0.95, 1e-4);
+        EXPECT_NEAR(uncoated[c], 0.01, 1e-4);
+        EXPECT_NEAR(through[c], colour[c] * 0.5 * 0.4 * 0.95 * (1 - gain), 1e-4);
+    }
+    const Spectrum glass = carried(Glass{Spectrum::grey(0.96), 1.52}, 60, true);
+    EXPECT_NEAR(glass.g, Bsdf(Glass{Spectrum::grey(0.96), 1.52}, true).straight_transmittance(at(60)).g, 1e-4);
+}
+
 TEST(Bsdf, LightThatRefractsInAndOutOfABodyKeepsItsRadiance)
 {
     const Bsdf in(Dielectric{Spectrum::grey(1), 1.5, 0}, true), out(Dielectric{Spectrum::grey(1), 1.5, 0}, false);
