@@ -73,7 +73,8 @@ std::size_t cell_of(const Direction& d)
 /// Integral of the density over each cell, by a midpoint rule.
 std::vector<double> shares_of(const Bsdf& bsdf, const Direction& to_viewer)
 {
-    constexpr int fine = 96; // at 88 degrees a highlight of roughness 0.1 is 7 mrad wide in azimuth
+    // At 88 degrees a highlight of roughness 0.1 is 7 mrad wide in azimuth.
+    const int fine = bsdf.lobes().glossy ? 96 : 16;
     std::vector<double> shares(rows * columns);
     const double element_sr = 4 * pi / (rows * columns * fine * fine);
     for (int i = 0; i < rows * fine; ++i)
