@@ -120,5 +120,64 @@ TEST(SharedGltf, FilesThatTheReferenceValidatorAcceptsLoadAndBrokenOnesNeverCras
     EXPECT_GE(accepted + refused, 190u);
 }
 
+/// Area of the nodes whose layer begins so.
+double area_of(const Measured& found, const std::string& start)
+{
+    double area = 0;
+    for (const auto& [layer, share] : found.layers)
+        if (layer.rfind(start, 0) == 0)
+            area += share.area_m2;
+    return area;
+}
+
+TEST(SharedGltf, TheOfficeKeepsItsAreasCamerasAndCopies)
+{
+    const std::filesystem::path folder = shared_fixtures() / "hosts/blender_office";
+    if (!std::filesystem::exists(folder))
+        GTEST_SKIP() << "the office is not at hand";
+    const Json truth = Json::parse(std::ifstream(folder / "truth.json"));
+    for (const char* name : {"office.glb", "office.gltf"}) {
+        SCOPED_TRACE(name);
+        const Imported office = import_gltf(folder / name, {});
+        validate(office.scene);
+        const Measured found = measure(office);
+        EXPECT_NEAR(area_of(found, "Floor"), 24, 1e-4);
+        EXPECT_NEAR(area_of(found, "Ceiling"), 24, 1e-4);
+        EXPECT_NEAR(area_of(found, "Wall ") + area_of(found, "Door leaf"), 53.55, 1e-4);
+        EXPECT_NEAR(area_of(found, "Window pane"), 5.25, 1e-4);
+        EXPECT_NEAR(area_of(found, "LED panel"), 0.72, 1e-4);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            EXPECT_NEAR(found.bounds.low[axis], truth["bbox_metres"][0][i].get<double>(), 1e-5);
+            EXPECT_NEAR(found.bounds.high[axis], truth["bbox_metres"][1][i].get<double>(), 1e-5);
+        }
+        ASSERT_GE(office.scene.views.size(), 2u);
+        const View& view = office.scene.views[0];
+        const Json& camera = truth["cameras"][view.name];
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(view.position[axis], camera["position"][static_cast<std::size_t>(axis)].get<double>(), 1e-5);
+            EXPECT_NEAR(view.direction[axis], camera["forward"][static_cast<std::size_t>(axis)].get<double>(), 1e-5);
+        }
+    }
+}
+
+TEST(SharedGltf, TheBuildingHasItsPlaneAreasAndBounds)
+{
+    const std::filesystem::path folder = shared_fixtures() / "hosts/freecad_building";
+    if (!std::filesystem::exists(folder))
+        GTEST_SKIP() << "the building is not at hand";
+    const Json truth = Json::parse(std::ifstream(folder / "truth.json"));
+    const Imported building = import_gltf(folder / "building.glb", {});
+    validate(building.scene);
+    const Measured found = measure(building);
+    for (int axis = 0; axis < 3; ++axis) { // curved parts are cut into chords
+        const auto i = static_cast<std::size_t>(axis);
+        EXPECT_NEAR(found.bounds.low[axis], truth["bbox_m"][0][i].get<double>(), 5e-3);
+        EXPECT_NEAR(found.bounds.high[axis], truth["bbox_m"][1][i].get<double>(), 5e-3);
+    }
+    EXPECT_NEAR(area_of(found, "Floor slab"), 90.64, 1e-3);
+    EXPECT_NEAR(area_of(found, "Wall ") + area_of(found, "Partition"), 220.82, 1e-2);
+}
+
 } // namespace
 } // namespace lightwell
