@@ -1,4 +1,5 @@
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "tests/unit/obj/measure.h"
 
 #include <gtest/gtest.h>
@@ -118,6 +119,45 @@ TEST(SharedGltf, FilesThatTheReferenceValidatorAcceptsLoadAndBrokenOnesNeverCras
     }
     std::cout << accepted << " read, " << refused << " refused\n";
     EXPECT_GE(accepted + refused, 190u);
+}
+
+/// Imports copies of a file with one wrong byte each.  @return how many were read
+std::size_t read_with_wrong_bytes(const std::filesystem::path& folder, const std::string& main_file,
+                                  const std::string& damaged_file, std::size_t step)
+{
+    const std::filesystem::path copy = std::filesystem::temp_directory_path() / "lightwell_wrong_bytes";
+    std::filesystem::remove_all(copy);
+    std::filesystem::copy(folder, copy, std::filesystem::copy_options::recursive);
+    const MappedFile mapped(folder / damaged_file);
+    const std::string whole(mapped.bytes());
+    std::size_t read = 0;
+    for (std::size_t at = 0; at < whole.size(); at += step) {
+        std::string bytes = whole;
+        bytes[at] = static_cast<char>(bytes[at] ^ (at % 2 ? 0x15 : 0xff));
+        write_text_atomically(copy / damaged_file, bytes);
+        try {
+            validate(import_gltf(copy / main_file, {}).scene);
+            ++read;
+        } catch (const InputError&) {
+            continue;
+        }
+    }
+    std::filesystem::remove_all(copy);
+    return read;
+}
+
+TEST(SharedGltf, OneWrongByteInPackedDataNeverCrashes)
+{
+    const std::filesystem::path folder = shared_fixtures() / "gltf";
+    if (!std::filesystem::exists(folder))
+        GTEST_SKIP() << "the files from elsewhere are not at hand";
+    const std::filesystem::path draco = folder / "online3dviewer/Box/glTF-Draco";
+    std::string packed;
+    for (const auto& entry : std::filesystem::directory_iterator(draco))
+        if (entry.path().extension() == ".bin")
+            packed = entry.path().filename().string();
+    EXPECT_GT(read_with_wrong_bytes(draco, "Box.gltf", packed, 1), 0u);
+    EXPECT_GT(read_with_wrong_bytes(folder / "gltf-transform", "BoxMeshopt.glb", "BoxMeshopt.glb", 1), 0u);
 }
 
 /// Area of the nodes whose layer begins so.
