@@ -1,6 +1,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "tests/unit/obj/measure.h"
+#include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 #include "engine/base/errors.h"
-#include "tests/unit/obj/measure.h"
+#include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
