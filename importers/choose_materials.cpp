@@ -80,12 +80,6 @@ bool is_settled(const Imported& imported, std::size_t modifier)
     return modifier >= imported.keys.size() || !open;
 }
 
-/// A place-holder takes its material from the instance, unless the rule names the block that it stands in.
-bool rule_reaches(const LayerRule& rule, const SurfaceKey& key, bool placeholder)
-{
-    return (!placeholder || !rule.block.empty()) && rule_matches(rule, key);
-}
-
 std::string place_of(const LayerMap& map, const LayerRule& rule)
 {
     return map.file.string() + ':' + std::to_string(rule.line);
@@ -102,16 +96,20 @@ std::string place_of(const LayerMap& map, const LayerRule& rule)
         said += (said.empty() ? "" : ", ") + std::string(word.name) + " = \"" + pattern + '"';
         LayerRule alone;
         alone.*word.pattern = pattern;
-        const auto fits = [&](const SurfaceKey& key) { return rule_matches(alone, key); };
-        if (std::any_of(imported.keys.begin(), imported.keys.end(), fits))
-            continue;
         std::set<std::string> present;
-        for (const SurfaceKey& key : imported.keys) {
+        bool fits = false;
+        for (std::size_t i = 0; i < imported.keys.size(); ++i) {
+            const SurfaceKey& key = imported.keys[i];
+            if (is_placeholder(imported.scene.modifiers[i]))
+                continue;
+            fits = fits || rule_matches(alone, key);
             const std::string values[] = {key.layer, key.group, key.block, key.material, key.entity, colour_text(key)};
             const std::string& value = values[&word - rule_words];
             if (!value.empty())
                 present.insert(value);
         }
+        if (fits)
+            continue;
         const std::string hint = nearest_hint(pattern, {present.begin(), present.end()}, 5);
         throw InputError{place_of(map, rule), std::string(word.name) + " = \"" + pattern + "\" matches no surface",
                          hint.empty() ? "the file gives no surface a " + std::string(word.name) : hint};
@@ -124,12 +122,12 @@ struct RuleUse {
     std::vector<bool> matched, won;
 };
 
-/// The last rule that reaches the key; nothing when none does.
-const LayerRule* winning_rule(const LayerMap& map, const SurfaceKey& key, bool placeholder, RuleUse& use)
+/// The last rule that matches the key; nothing when none does.
+const LayerRule* winning_rule(const LayerMap& map, const SurfaceKey& key, RuleUse& use)
 {
     const LayerRule* winner = nullptr;
     for (std::size_t i = map.rules.size(); i-- > 0;) {
-        if (!rule_reaches(map.rules[i], key, placeholder))
+        if (!rule_matches(map.rules[i], key))
             continue;
         use.matched[i] = true;
         if (!winner) {
@@ -218,11 +216,10 @@ std::vector<Choice> choose_materials(Imported& imported, const LayerMap& map)
             continue;
         }
         const SurfaceKey& key = imported.keys[i];
-        const bool placeholder = is_placeholder(imported.scene.modifiers[i]);
-        if (const LayerRule* rule = winning_rule(map, key, placeholder, use)) {
+        if (is_placeholder(imported.scene.modifiers[i])) {
+            choices[i].kind = Choice::Kind::inherited; // rules are for the keys that instances put in its place
+        } else if (const LayerRule* rule = winning_rule(map, key, use)) {
             choices[i] = names.named(rule->use, rule->side, place_of(map, *rule));
-        } else if (placeholder) {
-            choices[i].kind = Choice::Kind::inherited;
         } else {
             choices[i] = choice_without_rule(key, map, names);
             if (map.default_material.empty() && (key.material.empty() || !names.of_file(key.material)))

@@ -11,6 +11,9 @@ namespace lightwell {
 /// front only.
 enum class Turn : std::uint8_t { as_is, reversed, both };
 
+/// Ends the name of the copy that faces the other way; it counts as the same surface in summaries.
+inline constexpr const char* back_suffix = "~back";
+
 /// Turns for the surfaces of one part that share an emitter. Closed bodies emit outwards whatever `side` says: spheres,
 /// cones and cylinders, rings that close one of those, and polygons and meshes that together leave no open edge.
 /// @param emitters  indices into part.surfaces

@@ -128,7 +128,7 @@ void Namer::add_materials()
         if (materials_of_layer_.contains(name))
             name = unused_name(name + ".material", ".");
         const Material material = is_half(id) ? with_half_radiance(*choice.definition) : *choice.definition;
-        material_ids_[material_name(id)] = add({name, material, void_modifier}, {name, {}, {}, name, {}, {}});
+        material_ids_[material_name(id)] = add({name, material, void_modifier}, {name, {}, {}, choice.name, {}, {}});
     }
 }
 

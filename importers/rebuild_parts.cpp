@@ -163,7 +163,7 @@ Part Rebuilder::build(const Part& part, std::size_t part_number, const Substitut
         } else if (turns[i] == Turn::both) {
             ++result_.shared_surfaces[static_cast<std::size_t>(modifiers[i])];
             append_copy(result, part, surface, false, modifiers[i] + half, surface.name);
-            append_copy(result, part, surface, true, modifiers[i] + half, surface.name + "~back");
+            append_copy(result, part, surface, true, modifiers[i] + half, surface.name + back_suffix);
         } else {
             append_copy(result, part, surface, turns[i] == Turn::reversed, modifiers[i], surface.name);
         }

@@ -78,7 +78,7 @@ Bsdf::Bsdf(const Material& material, bool from_front) noexcept : model_(model_of
 {
     lobes_ = std::visit(Overloaded{[](const Black&) { return Lobes{}; }, [](const Layered& m) { return m.lobes(); },
                                    [](const DielectricBoundary& m) { return delta_lobes(m.straight()); },
-                                   [](const ThinGlass& m) { return delta_lobes(!m.transmittance(1).is_black()); },
+                                   [](const ThinGlass& m) { return delta_lobes(!m.opaque()); },
                                    [](const Mirror&) { return delta_lobes(false); }},
                         model_);
 }

@@ -65,42 +65,41 @@ Layered::Shares Layered::shares(const Parts& parts) const noexcept
     return {dr / sum, dt / sum, sr / sum, st / sum};
 }
 
-Spectrum Layered::value_of(const Parts& parts, Direction to_viewer, Direction to_light) const noexcept
+Layered::Scattered Layered::scattered(const Parts& parts, const Shares& shares, Direction to_viewer,
+                                      Direction to_light) const noexcept
 {
     if (!(to_viewer.z > 0) || to_light.z == 0)
         return {};
     const bool reflected = to_light.z > 0;
     const double entering = 1 - fresnel_increase(to_light.z);
-    const Spectrum& diffuse = reflected ? parts.diffuse_reflectance : parts.diffuse_transmittance;
-    Spectrum value = diffuse * (entering / pi);
-    if (!smooth_ && reflected && !parts.specular_reflectance.is_black())
-        value += parts.specular_reflectance * Ward(roughness_).value_per_sr(to_viewer, to_light);
-    if (!smooth_ && !reflected && !parts.specular_transmittance.is_black())
-        value += parts.specular_transmittance * RoughTransmission(roughness_).value_per_sr(to_viewer, to_light);
-    return value;
-}
-
-double Layered::density_of(const Shares& shares, Direction to_viewer, Direction to_light) const noexcept
-{
-    if (!(to_viewer.z > 0))
-        return 0;
-    double density = shares.diffuse_reflection * Diffuse::density_per_sr(to_light.z) +
-                     shares.diffuse_transmission * Diffuse::density_per_sr(-to_light.z);
-    if (!smooth_ && shares.specular_reflection > 0)
-        density += shares.specular_reflection * Ward(roughness_).density_per_sr(to_viewer, to_light);
-    if (!smooth_ && shares.specular_transmission > 0)
-        density += shares.specular_transmission * RoughTransmission(roughness_).density_per_sr(to_viewer, to_light);
-    return density;
+    const double diffuse_share = reflected ? shares.diffuse_reflection : shares.diffuse_transmission;
+    Scattered sum{(reflected ? parts.diffuse_reflectance : parts.diffuse_transmittance) * (entering / pi),
+                  diffuse_share * Diffuse::density_per_sr(std::fabs(to_light.z))};
+    if (smooth_)
+        return sum;
+    if (reflected && shares.specular_reflection > 0) {
+        const ScatteredLobe lobe = Ward(roughness_).scattered(to_viewer, to_light);
+        sum.value_per_sr += parts.specular_reflectance * lobe.value_per_sr;
+        sum.density_per_sr += shares.specular_reflection * lobe.density_per_sr;
+    }
+    if (!reflected && shares.specular_transmission > 0) {
+        const ScatteredLobe lobe = RoughTransmission(roughness_).scattered(to_viewer, to_light);
+        sum.value_per_sr += parts.specular_transmittance * lobe.value_per_sr;
+        sum.density_per_sr += shares.specular_transmission * lobe.density_per_sr;
+    }
+    return sum;
 }
 
 Spectrum Layered::value_per_sr(Direction to_viewer, Direction to_light) const noexcept
 {
-    return value_of(parts(to_viewer.z), to_viewer, to_light);
+    const Parts all = parts(to_viewer.z);
+    return scattered(all, shares(all), to_viewer, to_light).value_per_sr;
 }
 
 double Layered::density_per_sr(Direction to_viewer, Direction to_light) const noexcept
 {
-    return density_of(shares(parts(to_viewer.z)), to_viewer, to_light);
+    const Parts all = parts(to_viewer.z);
+    return scattered(all, shares(all), to_viewer, to_light).density_per_sr;
 }
 
 std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, UnitSquare u) const noexcept
@@ -131,11 +130,11 @@ std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, Un
         if (through && share.diffuse_transmission > 0)
             to_light.z = -to_light.z;
     }
-    const double density = density_of(share, to_viewer, to_light);
-    if (!(density > 0))
+    const Scattered found = scattered(all, share, to_viewer, to_light);
+    if (!(found.density_per_sr > 0))
         return {};
-    return BsdfSample{to_light, value_of(all, to_viewer, to_light) * (std::fabs(to_light.z) / density), density, false,
-                      false};
+    return BsdfSample{to_light, found.value_per_sr * (std::fabs(to_light.z) / found.density_per_sr),
+                      found.density_per_sr, false, false};
 }
 
 Spectrum Layered::straight_transmittance(Direction to_viewer) const noexcept

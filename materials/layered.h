@@ -45,8 +45,13 @@ private:
     double fresnel_increase(double cosine) const noexcept;
     Parts parts(double cos_viewer) const noexcept;
     Shares shares(const Parts& parts) const noexcept;
-    Spectrum value_of(const Parts& parts, Direction to_viewer, Direction to_light) const noexcept;
-    double density_of(const Shares& shares, Direction to_viewer, Direction to_light) const noexcept;
+    struct Scattered {
+        Spectrum value_per_sr;
+        double density_per_sr = 0;
+    };
+    /// Value and density together, since they share the exponential of the highlight.
+    Scattered scattered(const Parts& parts, const Shares& shares, Direction to_viewer,
+                        Direction to_light) const noexcept;
 
     Spectrum colour_;
     double specularity_, roughness_, transmission_, transmitted_specular_;

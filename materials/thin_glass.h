@@ -13,6 +13,7 @@ public:
     ThinGlass(Spectrum transmissivity, double index) noexcept : transmissivity_(transmissivity), index_(index) {}
     Spectrum transmittance(double cos_viewer) const noexcept;
     Spectrum reflectance(double cos_viewer) const noexcept;
+    bool opaque() const noexcept { return transmissivity_.is_black(); }
 
 private:
     Spectrum passage(double cos_refracted) const noexcept;

@@ -19,19 +19,15 @@ double facet_share(const Vec3& half, double roughness)
 
 } // namespace
 
-double Ward::value_per_sr(Direction to_viewer, Direction to_light) const noexcept
+ScatteredLobe Ward::scattered(Direction to_viewer, Direction to_light) const noexcept
 {
     const Vec3 half = to_viewer + to_light;
     if (!(to_viewer.z > 0 && to_light.z > 0 && half.z > lowest_half_height))
-        return 0;
+        return {};
     const double z2 = half.z * half.z;
-    return facet_share(half, roughness_) * dot(half, half) / (pi * roughness_ * roughness_ * z2 * z2);
-}
-
-double Ward::density_per_sr(Direction to_viewer, Direction to_light) const noexcept
-{
-    // value * cos_light / weight, with the weight 2 cos_light / (cos_viewer + cos_light).
-    return value_per_sr(to_viewer, to_light) * (to_viewer.z + to_light.z) / 2;
+    const double value = facet_share(half, roughness_) * dot(half, half) / (pi * roughness_ * roughness_ * z2 * z2);
+    // Density is value * cos_light / weight, with the weight 2 cos_light / (cos_viewer + cos_light).
+    return {value, value * half.z / 2};
 }
 
 Direction Ward::sample(Direction to_viewer, UnitSquare u) const noexcept
@@ -43,27 +39,16 @@ Direction Ward::sample(Direction to_viewer, UnitSquare u) const noexcept
     return normalized(mirrored);
 }
 
-double RoughTransmission::lobe_per_sr(Direction to_viewer, Direction to_light) const noexcept
+ScatteredLobe RoughTransmission::scattered(Direction to_viewer, Direction to_light) const noexcept
 {
+    if (!(to_viewer.z > 0 && to_light.z < 0))
+        return {};
     // |sum|^2 = 2 - 2 cos of the angle to the straight direction, without cancellation.
     const Vec3 sum = to_viewer + to_light;
     const double width = roughness_ * roughness_;
-    return std::exp(-dot(sum, sum) / width) / (pi * width);
-}
-
-double RoughTransmission::value_per_sr(Direction to_viewer, Direction to_light) const noexcept
-{
-    if (!(to_viewer.z > 0 && to_light.z < 0))
-        return 0;
+    const double lobe = std::exp(-dot(sum, sum) / width) / (pi * width);
     const double root = std::sqrt(to_viewer.z * -to_light.z);
-    return lobe_per_sr(to_viewer, to_light) / std::max(root, roughness_ / 2);
-}
-
-double RoughTransmission::density_per_sr(Direction to_viewer, Direction to_light) const noexcept
-{
-    if (!(to_viewer.z > 0 && to_light.z < 0))
-        return 0;
-    return lobe_per_sr(to_viewer, to_light) / -std::expm1(-4 / (roughness_ * roughness_));
+    return {lobe / std::max(root, roughness_ / 2), lobe / -std::expm1(-4 / width)};
 }
 
 Direction RoughTransmission::sample(Direction to_viewer, UnitSquare u) const noexcept

@@ -2,9 +2,12 @@
 
 #include "engine/base/vector.h"
 
-#include <optional>
-
 namespace lightwell {
+
+/// Value (without the cosine) and density of a lobe for one pair of directions; they share their exponential.
+struct ScatteredLobe {
+    double value_per_sr = 0, density_per_sr = 0;
+};
 
 /// Gaussian highlight of rough surfaces in its bounded, reciprocal form: never more light out than in.
 /// Frame   local, z = normal; both directions leave the surface
@@ -15,8 +18,7 @@ public:
     /// @param roughness  rms slope of the facets, (0, 1]
     explicit Ward(double roughness) noexcept : roughness_(roughness) {}
     /// For a specular reflectance of 1; zero when either direction is below the surface.
-    double value_per_sr(Direction to_viewer, Direction to_light) const noexcept;
-    double density_per_sr(Direction to_viewer, Direction to_light) const noexcept;
+    ScatteredLobe scattered(Direction to_viewer, Direction to_light) const noexcept;
     /// A direction mirrored at a random facet, which may lie below the surface (that light is lost);
     /// value * cos / density is 2 / (1 + cos_viewer / cos_light).
     Direction sample(Direction to_viewer, UnitSquare u) const noexcept;
@@ -33,13 +35,11 @@ class RoughTransmission {
 public:
     explicit RoughTransmission(double roughness) noexcept : roughness_(roughness) {}
     /// For a transmittance of 1; zero unless to_light.z < 0 < to_viewer.z.
-    double value_per_sr(Direction to_viewer, Direction to_light) const noexcept;
-    double density_per_sr(Direction to_viewer, Direction to_light) const noexcept;
+    ScatteredLobe scattered(Direction to_viewer, Direction to_light) const noexcept;
     /// May leave on the viewer's side; that light is lost.
     Direction sample(Direction to_viewer, UnitSquare u) const noexcept;
 
 private:
-    double lobe_per_sr(Direction to_viewer, Direction to_light) const noexcept;
     double roughness_;
 };
 

@@ -23,9 +23,9 @@ private:
 
     /// Calls use(insert, inserted) for each visible INSERT of a range of entities.
     template <class Use>
-    void for_each_insert(std::size_t first, std::size_t count, const BlockUse* around, Use use)
+    void for_each_insert(const EntityRange& range, const BlockUse* around, Use use)
     {
-        for (std::size_t i = first; i < first + count; ++i) {
+        for (std::size_t i = range.first; i < range.first + range.count; ++i) {
             const Entity& entity = drawing_.entities[i];
             BlockUse inserted;
             if (entity.kind == Kind::insert && !hidden_reason(drawing_, entity, around) &&
@@ -66,8 +66,7 @@ void BlockPlanner::visit(const Entity& insert, const BlockUse& use)
         return;
     state = State::open;
     path_.push_back(&insert);
-    const Block& block = drawing_.blocks[use.block];
-    for_each_insert(block.first_entity, block.entity_count, &use,
+    for_each_insert(drawing_.blocks[use.block].entities, &use,
                     [&](const Entity& inner, const BlockUse& inserted) { visit(inner, inserted); });
     path_.pop_back();
     states_[node(use)] = State::done;
@@ -76,12 +75,12 @@ void BlockPlanner::visit(const Entity& insert, const BlockUse& use)
 
 std::vector<BlockUse> BlockPlanner::plan()
 {
-    for_each_insert(drawing_.first_model_entity, drawing_.model_entity_count, nullptr,
-                    [&](const Entity& insert, const BlockUse& use) { visit(insert, use); });
+    for (const EntityRange& range : drawing_.model)
+        for_each_insert(range, nullptr, [&](const Entity& insert, const BlockUse& use) { visit(insert, use); });
     std::vector<double> scales(states_.size(), 0.0);
     double copies = 0;
-    const auto spread = [&](const BlockUse* around, double scale, std::size_t first, std::size_t count) {
-        for_each_insert(first, count, around, [&](const Entity& insert, const BlockUse& use) {
+    const auto spread = [&](const BlockUse* around, double scale, const EntityRange& range) {
+        for_each_insert(range, around, [&](const Entity& insert, const BlockUse& use) {
             const InsertFrame frame = insert_frame(drawing_, insert);
             scales[node(use)] = std::fmax(scales[node(use)], scale * frame.largest_scale);
             copies += static_cast<double>(frame.columns) * frame.rows;
@@ -91,11 +90,11 @@ std::vector<BlockUse> BlockPlanner::plan()
                                  "split the drawing"};
         });
     };
-    spread(nullptr, 1, drawing_.first_model_entity, drawing_.model_entity_count);
+    for (const EntityRange& range : drawing_.model)
+        spread(nullptr, 1, range);
     for (auto use = order_.rbegin(); use != order_.rend(); ++use) { // outer blocks before inner ones
         use->largest_scale = scales[node(*use)];
-        const Block& block = drawing_.blocks[use->block];
-        spread(&*use, use->largest_scale, block.first_entity, block.entity_count);
+        spread(&*use, use->largest_scale, drawing_.blocks[use->block].entities);
     }
     return std::move(order_);
 }
@@ -106,16 +105,28 @@ std::uint32_t copies_along(double count, double step)
     return count > 1 && step != 0 ? static_cast<std::uint32_t>(std::fmin(count, most_copies + 1)) : 1;
 }
 
+/// Flat blocks are often written with a z scale of 0, which stands for 1 as no scale at all does.
+Vec3 scale_of(const Fields& fields, bool& has_zero)
+{
+    Vec3 scale{fields.get(41, 1), fields.get(42, 1), fields.get(43, 1)};
+    for (const int axis : {0, 1, 2})
+        if (scale[axis] == 0) {
+            scale[axis] = 1;
+            has_zero = true;
+        }
+    return scale;
+}
+
 } // namespace
 
 InsertFrame insert_frame(const Drawing& drawing, const Entity& insert)
 {
+    InsertFrame frame;
     const Fields fields{drawing.values_of(insert)};
     const Affine axes = compose(object_axes(fields.extrusion()), Affine::translate(fields.point(10)));
     const Affine turned = compose(axes, Affine::rotate(2, fields.get(50) * radians_per_degree));
-    const Vec3 scale{fields.get(41, 1), fields.get(42, 1), fields.get(43, 1)};
+    const Vec3 scale = scale_of(fields, frame.has_zero_scale);
     const Point base = drawing.blocks[drawing.block_of_name[insert.block_name]].base;
-    InsertFrame frame;
     frame.first = compose(compose(turned, Affine::scale(scale)), Affine::translate(-base));
     frame.column_step = turned.x * fields.get(44);
     frame.row_step = turned.y * fields.get(45);
@@ -150,15 +161,12 @@ Reason hidden_reason(const Drawing& drawing, const Entity& entity, const BlockUs
 Reason find_inserted(const Drawing& drawing, const Entity& insert, const BlockUse* around, BlockUse& inserted)
 {
     static constexpr SkipReason undefined{"its block is not defined", true},
-        external{"its block is drawn in another file; bind the reference", true}, flat{"its scale is zero"};
+        external{"its block is drawn in another file; bind the reference", true};
     inserted.block = insert.block_name == no_index ? no_index : drawing.block_of_name[insert.block_name];
     if (inserted.block == no_index)
         return &undefined;
     if (drawing.blocks[inserted.block].is_external)
         return &external;
-    const Fields fields{drawing.values_of(insert)};
-    if (fields.get(41, 1) == 0 || fields.get(42, 1) == 0 || fields.get(43, 1) == 0)
-        return &flat;
     const bool takes_layer = around && insert.layer == 0;
     inserted.hides_layer_zero = takes_layer ? around->hides_layer_zero : drawing.layers[insert.layer].is_off;
     return nullptr;

@@ -19,6 +19,7 @@ struct InsertFrame {
     Vec3 column_step, row_step;
     std::uint32_t columns = 1, rows = 1;
     double largest_scale = 1;
+    bool has_zero_scale = false; ///< the file says 0 for some axis; 1 is used
 };
 
 /// @throws InputError: more copies than a drawing may have

@@ -53,7 +53,7 @@ public:
 
 private:
     Prototype build_prototype(const BlockUse& use);
-    void fill(Target& target, std::size_t first, std::size_t count);
+    void fill(Target& target, const EntityRange& range);
     Reason add_entity(Target& target, const Entity& entity);
     Reason add_insert(Target& target, const Entity& insert);
     void add_shapes_to(Target& target, const Entity& entity);
@@ -84,16 +84,21 @@ void SceneBuilder::build(bool y_up)
     model.to_metres = to_metres_z_up(unit_, y_up);
     model.turn = to_metres_z_up(MetresPerUnit{1}, y_up);
     model.tolerance = chord_tolerance_m_ / unit_.value;
-    fill(model, drawing_.first_model_entity, drawing_.model_entity_count);
+    for (const EntityRange& range : drawing_.model)
+        fill(model, range);
     imported_.scene.root = std::move(model.part);
     fill_ledger();
     report_deviations();
+    if (imported_.ledger.made_count() == 0)
+        imported_.report.add(Finding::ignored, drawing_.file,
+                             fmt::format("none of the {} entities has a surface: outlines and texts only; export faces "
+                                         "(3DFACE, polyface mesh) or give the lines a thickness",
+                                         imported_.ledger.read_count()));
     report_unused_blocks(plan);
 }
 
 Prototype SceneBuilder::build_prototype(const BlockUse& use)
 {
-    const Block& block = drawing_.blocks[use.block];
     Target target;
     target.use = &use;
     const auto name = std::find(drawing_.block_of_name.begin(), drawing_.block_of_name.end(), use.block);
@@ -101,16 +106,16 @@ Prototype SceneBuilder::build_prototype(const BlockUse& use)
     target.part.name = drawing_.block_names[target.block_name];
     target.to_metres = Affine::scale(unit_.value);
     target.tolerance = chord_tolerance_m_ / (unit_.value * use.largest_scale);
-    fill(target, block.first_entity, block.entity_count);
+    fill(target, drawing_.blocks[use.block].entities);
     if (target.part.surfaces.empty())
         return {};
     imported_.scene.prototypes.push_back(std::move(target.part));
     return {true, static_cast<std::uint32_t>(imported_.scene.prototypes.size() - 1), std::move(target.waiting)};
 }
 
-void SceneBuilder::fill(Target& target, std::size_t first, std::size_t count)
+void SceneBuilder::fill(Target& target, const EntityRange& range)
 {
-    for (std::size_t i = first; i < first + count; ++i) {
+    for (std::size_t i = range.first; i < range.first + range.count; ++i) {
         const Entity& entity = drawing_.entities[i];
         Reason reason = hidden_reason(drawing_, entity, target.use);
         if (!reason)
@@ -175,6 +180,8 @@ Reason SceneBuilder::add_insert(Target& target, const Entity& insert)
     if (!prototype.has_surfaces)
         return &empty_block;
     const InsertFrame frame = insert_frame(drawing_, insert);
+    if (frame.has_zero_scale)
+        imported_.report.add(Finding::repaired, drawing_.place(insert), "scale of an insert is 0; 1 is used");
     Instance instance{prototype.index, {}, bindings(target, insert, prototype)};
     const std::string name = drawing_.name(insert);
     for (std::uint32_t row = 0; row < frame.rows; ++row)

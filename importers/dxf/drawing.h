@@ -49,12 +49,16 @@ struct Layer {
     bool is_off = false;
 };
 
-/// Entities first_entity ... first_entity + entity_count - 1 belong together.
+/// Entities that stand together in Drawing::entities.
+struct EntityRange {
+    std::size_t first = 0, count = 0;
+};
+
 struct Block {
     Point base;
     bool is_external = false; ///< drawn in another file
     std::uint64_t place = 0;
-    std::size_t first_entity = 0, entity_count = 0;
+    EntityRange entities;
 };
 
 /// What a DXF file holds, each entity with its place; nothing is interpreted yet. Numbers are in drawing units.
@@ -69,7 +73,7 @@ struct Drawing {
     std::vector<Block> blocks;
     std::vector<std::uint32_t> block_of_name; ///< into blocks for each of block_names, or no_index
     std::vector<Entity> entities;
-    std::size_t first_model_entity = 0, model_entity_count = 0; ///< the ENTITIES section
+    std::vector<EntityRange> model; ///< the section ENTITIES; damaged files have several
     std::vector<Value> values;
 
     std::span<const Value> values_of(const Entity& entity) const

@@ -12,10 +12,13 @@
 namespace lightwell {
 namespace {
 
+/// Smaller than this, a model is no room: what was read as millimetres was drawn in metres.
+constexpr double smallest_model_m = 0.5;
+
 /// How long a drawing unit is, and how that is known.
 struct DrawingUnit {
     MetresPerUnit metres;
-    std::string source; ///< "from $INSUNITS", "given", or "assumed: ..."
+    std::string source; ///< "from $INSUNITS", "given", or "assumed"
     bool is_assumed = false;
 };
 
@@ -31,18 +34,25 @@ DrawingUnit drawing_unit(const dxf::Drawing& drawing, const ImportOptions& optio
     return {parse_unit("mm"), drawing.measurement ? "assumed: $MEASUREMENT is metric" : "assumed", true};
 }
 
-/// An assumed unit is reported with the size of the model that follows from it, where a wrong one shows.
-void report_unit(const dxf::Drawing& drawing, const DrawingUnit& unit, Imported& imported)
+Imported built(const dxf::Drawing& drawing, const DrawingUnit& unit, const ImportOptions& options,
+               const Report& reading)
 {
-    if (!unit.is_assumed)
-        return;
+    Imported imported;
+    imported.report = reading;
+    imported.unit = fmt::format("{} ({})", unit_name(unit.metres), unit.source);
+    dxf::build_scene(drawing, unit.metres, options.up == "y", options.chord_tolerance_m, imported);
+    return imported;
+}
+
+/// An assumed unit is reported with the size of the model that follows from it, where a wrong one shows.
+void report_unit(const dxf::Drawing& drawing, Imported& imported)
+{
     const Box box = bounds(imported.scene);
     const Vec3 size = box.empty() ? Vec3{} : box.high - box.low;
-    imported.report.add(
-        Finding::assumed, drawing.file,
-        fmt::format("the file does not state its unit ($INSUNITS); {} is {}, which makes the model {:.4g} x {:.4g} x "
-                    "{:.4g} m; give the unit if that is wrong",
-                    unit_name(unit.metres), unit.source, size.x, size.y, size.z));
+    imported.report.add(Finding::assumed, drawing.file,
+                        fmt::format("the file does not state its unit ($INSUNITS); read as {}, the model measures "
+                                    "{:.4g} x {:.4g} x {:.4g} m; give the unit if that is wrong",
+                                    imported.unit, size.x, size.y, size.z));
 }
 
 void check_options(const std::filesystem::path& file, const ImportOptions& options)
@@ -66,12 +76,18 @@ bool recognize_dxf(const std::filesystem::path& file)
 Imported import_dxf(const std::filesystem::path& file, const ImportOptions& options)
 {
     check_options(file, options);
-    Imported imported;
-    const dxf::Drawing drawing = dxf::read_drawing(file, imported.report);
-    const DrawingUnit unit = drawing_unit(drawing, options);
-    imported.unit = fmt::format("{} ({})", unit_name(unit.metres), unit.source);
-    dxf::build_scene(drawing, unit.metres, options.up == "y", options.chord_tolerance_m, imported);
-    report_unit(drawing, unit, imported);
+    Report reading;
+    const dxf::Drawing drawing = dxf::read_drawing(file, reading); // tags -> entities, each with its line
+    DrawingUnit unit = drawing_unit(drawing, options);
+    Imported imported = built(drawing, unit, options, reading); // blocks -> prototypes, entities -> surfaces
+    if (!unit.is_assumed)
+        return imported;
+    const Box box = bounds(imported.scene);
+    if (drawing.measurement != 0 && !box.empty() && box.diagonal() < smallest_model_m) {
+        unit = {parse_unit("m"), "assumed: in mm the model would be too small", true};
+        imported = built(drawing, unit, options, reading);
+    }
+    report_unit(drawing, imported);
     return imported;
 }
 

@@ -69,12 +69,17 @@ private:
     void read_layer();
     void read_blocks();
     void read_block();
-    void read_entities(std::string_view end);
+    EntityRange read_entities(std::string_view end);
     void read_entity();
     void read_entity_tag(Entity& entity, bool with_values);
     void read_vertices(Entity& entity);
     void read_attributes(const Entity& insert);
     void add_value(const Entity& entity);
+    std::string described(const Entity& entity) const;
+    int integer(const char* subject) const
+    {
+        return tags_.integer(tag_, [subject] { return std::string{subject}; });
+    }
     void skip_tags();
 
     bool is(int code, std::string_view text) const { return tag_.code == code && trimmed(tag_.text) == text; }
@@ -113,8 +118,6 @@ Drawing DrawingReader::read()
     if (!has_ended_)
         report_.add(Finding::repaired, tags_.place(tag_.place),
                     "the end mark (EOF) is missing; all sections are whole");
-    if (drawing_.first_model_entity == 0 && drawing_.model_entity_count == 0)
-        report_.add(Finding::ignored, drawing_.file, "the drawing has no entities");
     return std::move(drawing_);
 }
 
@@ -130,9 +133,9 @@ void DrawingReader::read_section()
     else if (name == "BLOCKS")
         read_blocks();
     else if (name == "ENTITIES") {
-        drawing_.first_model_entity = drawing_.entities.size();
-        read_entities("ENDSEC");
-        drawing_.model_entity_count = drawing_.entities.size() - drawing_.first_model_entity;
+        if (!drawing_.model.empty())
+            report_.add(Finding::repaired, tags_.place(tag_.place), "one more section ENTITIES; all are read");
+        drawing_.model.push_back(read_entities("ENDSEC"));
     }
     while (!is(0, "ENDSEC"))
         advance("section " + name);
@@ -145,9 +148,9 @@ void DrawingReader::read_header()
         if (tag_.code == 9)
             variable = trimmed(tag_.text);
         else if (variable == "$INSUNITS" && tag_.code == 70)
-            drawing_.insunits = tags_.integer(tag_);
+            drawing_.insunits = integer("$INSUNITS");
         else if (variable == "$MEASUREMENT" && tag_.code == 70)
-            drawing_.measurement = tags_.integer(tag_);
+            drawing_.measurement = integer("$MEASUREMENT");
         else if (variable == "$DWGCODEPAGE" && tag_.code == 3) {
             code_page_ = CodePage{tag_.text};
             if (!code_page_.known())
@@ -176,11 +179,11 @@ void DrawingReader::read_layer()
         if (tag_.code == 2)
             layer.name = trimmed(tag_.text);
         else if (tag_.code == 70)
-            layer.is_frozen = tags_.integer(tag_) & frozen_flag;
+            layer.is_frozen = integer("layer table") & frozen_flag;
         else if (tag_.code == 62)
-            layer.colour = tags_.integer(tag_);
+            layer.colour = integer("layer table");
         else if (tag_.code == 420)
-            layer.true_colour = tags_.integer(tag_);
+            layer.true_colour = integer("layer table");
     }
     layer.is_off = layer.colour < 0;
     layer.colour = std::abs(layer.colour);
@@ -209,15 +212,13 @@ void DrawingReader::read_block()
         if (tag_.code == 2)
             name = block_name_index(tag_.text);
         else if (tag_.code == 70)
-            block.is_external = tags_.integer(tag_) & external_flags;
+            block.is_external = integer("block") & external_flags;
         else if (tag_.code >= 10 && tag_.code <= 30 && tag_.code % 10 == 0)
-            block.base[tag_.code / 10 - 1] = tags_.number(tag_);
+            block.base[tag_.code / 10 - 1] = tags_.number(tag_, [] { return std::string{"block"}; });
     }
     if (name == no_index)
         name = block_name_index("");
-    block.first_entity = drawing_.entities.size();
-    read_entities("ENDBLK");
-    block.entity_count = drawing_.entities.size() - block.first_entity;
+    block.entities = read_entities("ENDBLK");
     if (drawing_.block_of_name[name] == no_index)
         drawing_.block_of_name[name] = static_cast<std::uint32_t>(drawing_.blocks.size());
     else
@@ -227,8 +228,9 @@ void DrawingReader::read_block()
     drawing_.blocks.push_back(block);
 }
 
-void DrawingReader::read_entities(std::string_view end)
+EntityRange DrawingReader::read_entities(std::string_view end)
 {
+    const std::size_t first = drawing_.entities.size();
     while (!is(0, end)) {
         if (is(0, "ENDSEC"))
             throw InputError{tags_.place(tag_.place), fmt::format("section ends, expected {} first", end),
@@ -238,6 +240,7 @@ void DrawingReader::read_entities(std::string_view end)
         else
             advance(end == "ENDBLK" ? "a block" : "section ENTITIES");
     }
+    return {first, drawing_.entities.size() - first};
 }
 
 void DrawingReader::read_entity()
@@ -266,6 +269,7 @@ void DrawingReader::read_entity()
 
 void DrawingReader::read_entity_tag(Entity& entity, bool with_values)
 {
+    const auto subject = [&] { return described(entity); };
     switch (tag_.code) {
     case 8:
         entity.layer = layer_index(tag_.text);
@@ -280,16 +284,16 @@ void DrawingReader::read_entity_tag(Entity& entity, bool with_values)
             entity.block_name = block_name_index(tag_.text);
         return;
     case 60:
-        entity.is_invisible = tags_.integer(tag_) != 0;
+        entity.is_invisible = tags_.integer(tag_, subject) != 0;
         return;
     case 62:
-        entity.colour = tags_.integer(tag_);
+        entity.colour = tags_.integer(tag_, subject);
         return;
     case 67:
-        entity.in_paper_space = tags_.integer(tag_) != 0;
+        entity.in_paper_space = tags_.integer(tag_, subject) != 0;
         return;
     case 420:
-        entity.true_colour = tags_.integer(tag_) & 0xFFFFFF;
+        entity.true_colour = tags_.integer(tag_, subject) & 0xFFFFFF;
         return;
     default:
         if (with_values && is_geometry(tag_.code))
@@ -299,13 +303,12 @@ void DrawingReader::read_entity_tag(Entity& entity, bool with_values)
 
 void DrawingReader::add_value(const Entity& entity)
 {
-    try {
-        drawing_.values.push_back({tag_.code, tags_.number(tag_)});
-    } catch (const InputError& error) {
-        throw InputError{error.what(),
-                         fmt::format("in {} on layer \"{}\" that begins at {}", drawing_.types[entity.type],
-                                     drawing_.layers[entity.layer].name, tags_.place(entity.place))};
-    }
+    drawing_.values.push_back({tag_.code, tags_.number(tag_, [&] { return described(entity); })});
+}
+
+std::string DrawingReader::described(const Entity& entity) const
+{
+    return fmt::format("{} on layer \"{}\"", drawing_.types[entity.type], drawing_.layers[entity.layer].name);
 }
 
 void DrawingReader::read_vertices(Entity& entity)

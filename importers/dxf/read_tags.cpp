@@ -85,33 +85,26 @@ std::string TagReader::place(std::uint64_t place) const
     return file_ + (binary_ ? ": byte " : ":") + std::to_string(place);
 }
 
-double TagReader::number(const Tag& tag) const
+std::optional<double> TagReader::finite_number(const Tag& tag)
 {
-    double value = tag.number;
-    if (!tag.is_number) {
-        const auto parsed = parse_double(trimmed(tag.text));
-        if (!parsed)
-            throw InputError{place(tag.place),
-                             "group " + std::to_string(tag.code) + " is " + excerpt(tag.text) + ", expected a number",
-                             "save the drawing again or correct the line"};
-        value = *parsed;
-    }
-    if (!(std::fabs(value) <= largest_number))
-        throw InputError{place(tag.place),
-                         "group " + std::to_string(tag.code) + " is " + shortest(value) +
-                             ", expected a finite number within +-" + shortest(largest_number),
-                         "save the drawing again or correct the value"};
-    return value;
+    const auto value = tag.is_number ? tag.number : parse_double(trimmed(tag.text));
+    return value && std::fabs(*value) <= largest_number ? value : std::nullopt;
 }
 
-int TagReader::integer(const Tag& tag) const
+std::optional<int> TagReader::whole_number(const Tag& tag)
 {
-    const double value = number(tag);
-    if (value != std::floor(value) || std::fabs(value) > std::numeric_limits<int>::max())
-        throw InputError{place(tag.place),
-                         "group " + std::to_string(tag.code) + " is " + shortest(value) + ", expected a whole number",
-                         "save the drawing again or correct the value"};
-    return static_cast<int>(value);
+    const auto value = finite_number(tag);
+    if (!value || *value != std::floor(*value) || std::fabs(*value) > std::numeric_limits<int>::max())
+        return std::nullopt;
+    return static_cast<int>(*value);
+}
+
+double TagReader::reject(const Tag& tag, const std::string& expected, const std::string& subject) const
+{
+    throw InputError{place(tag.place) + (subject.empty() ? "" : ": " + subject),
+                     "group " + std::to_string(tag.code) + " is " +
+                         (tag.is_number ? shortest(tag.number) : excerpt(tag.text)) + ", expected " + expected,
+                     "save the drawing again or correct the value"};
 }
 
 std::string_view TagReader::take_line()

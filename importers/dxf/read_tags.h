@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -30,14 +31,26 @@ public:
     bool is_binary() const noexcept { return binary_; }
     /// `room.dxf:214`, or `room.dxf: byte 214` for a binary file.
     std::string place(std::uint64_t place) const;
-    /// The value as a finite number.
-    /// @throws InputError with place, group code and value
-    double number(const Tag& tag) const;
-    /// The value as a whole number that fits an int.
-    /// @throws InputError with place, group code and value
-    int integer(const Tag& tag) const;
+    /// The value as a finite number, or as a whole number that fits an int.
+    /// @param subject  what the tag belongs to, for the message: `3DFACE on layer "A-WALL"`; called only for that
+    /// @throws InputError with place, subject, group code and value
+    template <class Subject>
+    double number(const Tag& tag, Subject subject) const
+    {
+        const auto value = finite_number(tag);
+        return value ? *value : reject(tag, "a finite number within +-1e40", subject());
+    }
+    template <class Subject>
+    int integer(const Tag& tag, Subject subject) const
+    {
+        const auto value = whole_number(tag);
+        return value ? *value : static_cast<int>(reject(tag, "a whole number", subject()));
+    }
 
 private:
+    static std::optional<double> finite_number(const Tag& tag);
+    static std::optional<int> whole_number(const Tag& tag);
+    [[noreturn]] double reject(const Tag& tag, const std::string& expected, const std::string& subject) const;
     bool next_text(Tag& tag);
     bool next_binary(Tag& tag);
     std::string_view take_line();

@@ -11,8 +11,14 @@ namespace {
 
 /// A fragment with fewer surfaces is copied: an instance costs more than it saves.
 constexpr std::size_t smallest_worth_sharing = 16;
-/// Copies of surfaces that transforms may make before it counts as a slip.
-constexpr std::size_t most_copies = 50'000'000;
+/// Copies of surfaces that transforms may make (a gigabyte, about) before it counts as a slip.
+constexpr std::size_t most_copies = 5'000'000;
+
+[[noreturn]] void refuse_copies(const std::string& place)
+{
+    throw InputError{place, fmt::format("the transforms copy more than {} surfaces", most_copies),
+                     "use smaller arrays, or `instance`"};
+}
 
 } // namespace
 
@@ -101,6 +107,9 @@ void SceneReader::include(const Xform& xform, OpenFile& file, const std::string&
         modifier = usable(file, stand_in, meaning_of(file, stand_in, *xform.modifier, target));
     }
     Fragment& shared = fragment(xform.files, file, place, target);
+    const std::size_t surfaces = part_of(shared).surfaces.size();
+    if ((!shared.prototype || shared.turns || shared.scales) && surfaces > most_copies / xform.placements.size())
+        refuse_copies(place);
     for (const Placement& placement : xform.placements) {
         std::string name = xform.name.value_or("");
         if (!placement.array_index.empty())
@@ -190,8 +199,7 @@ void SceneReader::expand(const Part& part, const Affine& map, const std::string&
 {
     expanded_ += part.surfaces.size();
     if (expanded_ > most_copies)
-        throw InputError{place, fmt::format("the transforms copy more than {} surfaces", most_copies),
-                         "use smaller arrays, or `instance`"};
+        refuse_copies(place);
     // with_modifier() adds prototypes, which moves those that are there.
     const std::optional<Part> copy = modifier && !part.instances.empty() ? std::optional(part) : std::nullopt;
     const Part& from = copy ? *copy : part;

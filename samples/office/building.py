@@ -42,7 +42,8 @@ def wall(block, origin, along, inwards, long, thickness, u_inner, rows, openings
             if not is_open(u, z):
                 into.append((at(u0, 0, z0), at(u1, 0, z0), at(u1, 0, z1), at(u0, 0, z1)))
                 i0, i1 = inner(u0), inner(u1)
-                into.append((at(i1, thickness, z0), at(i0, thickness, z0), at(i0, thickness, z1), at(i1, thickness, z1)))
+                into.append((at(i1, thickness, z0), at(i0, thickness, z0), at(i0, thickness, z1),
+                             at(i1, thickness, z1)))
                 continue
             for other, a, b in (((u, z0 - 1), (u1, z0), (u0, z0)), ((u, z1 + 1), (u0, z1), (u1, z1)),
                                 ((u0 - 1, z), (u0, z0), (u0, z1)), ((u1 + 1, z), (u1, z1), (u1, z0))):
@@ -95,7 +96,8 @@ def outer_walls(block):
         wall(block, (*start, 0), along, inwards, long, WALL, (WALL, long - WALL), rows, openings, OneLayer("A-WALL"))
     rim = [(0, 0), (LONG, 0), (LONG, DEEP), (0, DEEP)]
     hole = [(WALL, WALL), (LONG - WALL, WALL), (LONG - WALL, DEEP - WALL), (WALL, DEEP - WALL)]
-    block.polyface("A-WALL", [tuple((*p, PARAPET) for p in (rim[i - 1], rim[i], hole[i], hole[i - 1])) for i in range(4)])
+    block.polyface("A-WALL", [tuple((*p, PARAPET) for p in (rim[i - 1], rim[i], hole[i], hole[i - 1]))
+                              for i in range(4)])
 
 
 def windows(block):
@@ -151,8 +153,8 @@ def floors_and_ceilings(block):
     level_quad("A-ROOF", block, *inside, ROOF, True)
     x0, y0, x1, y1 = OPENING
     rim = [(x0, y0), (x0, y1), (x1, y1), (x1, y0)]  # clockwise: the fascia faces into the opening
-    block.polyface("A-CLNG-FASC", [((*rim[i - 1], CEILING), (*rim[i], CEILING), (*rim[i], STOREY), (*rim[i - 1], STOREY))
-                                   for i in range(4)])
+    block.polyface("A-CLNG-FASC", [((*a, CEILING), (*b, CEILING), (*b, STOREY), (*a, STOREY))
+                                   for a, b in zip(rim[-1:] + rim, rim)])
 
 
 def partitions(block, door):
@@ -283,7 +285,8 @@ def meeting(block, parts, x, y, level):
 
 
 def luminaires(block):
-    for level, lamp in ((0, furniture.luminaire("PANEL-SOLID", True)), (STOREY, furniture.luminaire("PANEL-FACE", False))):
+    for level, name, as_solid in ((0, "PANEL-SOLID", True), (STOREY, "PANEL-FACE", False)):
+        lamp = furniture.luminaire(name, as_solid)
         for x in BAYS:
             for y in PANEL_ROWS:
                 block.insert("E-LITE-FRAM", lamp, (x, y, level + CEILING))
@@ -294,7 +297,8 @@ def site(block):
     level_quad("L-SITE-PAVE", block, 12500, -26000, 15460, -1600, -140, True)
     block.box("L-SITE-PAVE", (11900, -1550, -160), (16060, -1, -10), omit="d")
     trees = ((-11800, -8800, 0, (1, 1, 1)), (3500, -12500, 75, (1.3, 1.3, 1.3)), (21500, -10500, 140, (1, 1, 1.15)),
-             (30500, -6000, 205, (1.2, 1.2, 1.2)), (-3800, 9500, 270, (1.4, 1.4, 1.4)), (33500, 6500, 330, (-1.3, 1.3, 1.5)))
+             (30500, -6000, 205, (1.2, 1.2, 1.2)), (-3800, 9500, 270, (1.4, 1.4, 1.4)),
+             (33500, 6500, 330, (-1.3, 1.3, 1.5)))
     tree = furniture.tree()
     for x, y, turn, scale in trees:
         block.insert("L-PLNT-TREE", tree, (x, y, -150), turn, scale)

@@ -79,8 +79,8 @@ def write_cylinder(layout, record, attributes):
 
 def write_insert(layout, record, attributes):
     sx, sy, sz = record.scale
-    layout.add_blockref(record.block.name, record.at,
-                        dxfattribs={**attributes, "rotation": record.turn_deg, "xscale": sx, "yscale": sy, "zscale": sz})
+    layout.add_blockref(record.block.name, record.at, dxfattribs={
+        **attributes, "rotation": record.turn_deg, "xscale": sx, "yscale": sy, "zscale": sz})
 
 
 def write_note(layout, record, attributes):

@@ -248,20 +248,20 @@ class Outputs(Case):
         self.assertIn("size 32x32", record["settings"]["settings"])
 
     def test_the_wanted_accuracy_is_reached(self):
-        self.expect(DONE, "illuminance", "room.rad", "--grid", "plane:0.8,0,0,4,3/1", "-o", "e.csv", "--accuracy", "2%")
+        self.expect(DONE, "illuminance", "room.rad", "--grid", "plane:0.8,0,0,4,3/0.5", "-o", "e.csv", "--accuracy", "2%")
         record = json.loads((self.folder / "e.run.json").read_text())
-        self.assertLess(record["median_relative_error"], 0.02 * 1.25)  # the pilot run itself is uncertain
+        self.assertLess(record["median_relative_error"], 0.02 * 1.5)  # an error found from few replicates is itself uncertain
 
 
 class Interruption(Case):
-    WORDS = ("render", "room.rad", "--view", VIEW, "-o", "p.exr", "--samples", "512", "--size", "320x240", "--seed", "7")
+    WORDS = ("render", "room.rad", "--view", VIEW, "-o", "p.exr", "--samples", "64", "--size", "128x96", "--seed", "7")
 
     def interrupt(self, signal_number, wait_s):
         """Sends the signal once tiles have been written."""
         running = subprocess.Popen([PROGRAM, *self.WORDS], cwd=self.folder, stderr=subprocess.PIPE, text=True)
         partial, deadline = self.folder / "p.partial.exr", time.monotonic() + wait_s
         while time.monotonic() < deadline and running.poll() is None:
-            if partial.exists() and partial.stat().st_size > 100_000:
+            if partial.exists() and partial.stat().st_size > 60_000:  # a tile of 32 x 32 x 13 floats
                 break
             time.sleep(0.02)
         running.send_signal(signal_number)

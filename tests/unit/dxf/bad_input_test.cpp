@@ -31,10 +31,10 @@ TEST(DxfBadInput, NumbersThatAreNoneAreNamedWithLineLayerAndValue)
     for (const std::string value : {"nan", "inf", "1e999", "abc", "1,5", "--1"}) {
         SCOPED_TRACE(value);
         expect_error(drawing("", "0 3DFACE 8 A-WALL 10 0 20 0 30 " + value),
-                     {".dxf:37", "3DFACE", "A-WALL", "group 30", "expected"});
+                     {".dxf:41: 3DFACE on layer \"A-WALL\": group 30", "expected"});
     }
-    expect_error(drawing("", face + " 62 red"), {"group 62 is \"red\"", "expected a number"});
-    expect_error(drawing("", face + " 62 1.5"), {"group 62 is 1.5", "whole number"});
+    expect_error(drawing("", face + " 62 red"), {"group 62 is \"red\"", "expected a whole number"});
+    expect_error(drawing("", face + " 62 1.5"), {"group 62 is \"1.5\"", "whole number"});
 }
 
 TEST(DxfBadInput, GroupCodesThatAreNoneAreNamedWithTheirLine)
@@ -84,14 +84,16 @@ TEST(DxfBadInput, PolyfacesAndMeshesWithWrongIndicesAndSizesAreNamed)
     expect_error(drawing("", grid), {"30000 x 30000", "has 1 vertices"});
 }
 
-TEST(DxfBadInput, ZeroScalesAndDegenerateEntitiesAreSkippedWithAReason)
+TEST(DxfBadInput, DegenerateEntitiesAreSkippedWithAReasonAndAScaleOfZeroIsOne)
 {
     const std::string block = "0 BLOCK 2 B 10 0 20 0 30 0 " + face + " 0 ENDBLK";
     const Imported imported = imported_text(
         drawing(block, "0 INSERT 2 B 42 0 0 LWPOLYLINE 90 0 39 1 0 CIRCLE 40 -1 39 1 0 ARC 40 0 39 1 "
                        "0 LINE 10 1 20 1 11 1 21 1 39 1 0 SOLID 0 POLYLINE 39 1 0 SEQEND 0 3DFACE 0 UNHEARD-OF"));
-    EXPECT_EQ(imported.ledger.made_count(), 0u);
-    EXPECT_EQ(imported.ledger.read_count(), 9u);
+    EXPECT_EQ(imported.ledger.made_count(), 2u); // the insert and the face in its block
+    EXPECT_EQ(imported.ledger.read_count(), 10u);
+    EXPECT_TRUE(imported.report.has(Finding::repaired));
+    EXPECT_NEAR(layer_areas(imported).at("A-WALL").area_m2, 12, 1e-12);
     EXPECT_NO_THROW(validate(imported.scene));
 }
 

@@ -25,10 +25,9 @@ json manifest()
     return in ? json::parse(in) : json{};
 }
 
-void count_expanded(const dxf::Drawing& drawing, std::size_t first, std::size_t count, std::size_t copies,
-                    Counts& counts)
+void count_expanded(const dxf::Drawing& drawing, const dxf::EntityRange& range, std::size_t copies, Counts& counts)
 {
-    for (std::size_t i = first; i < first + count; ++i) {
+    for (std::size_t i = range.first; i < range.first + range.count; ++i) {
         const dxf::Entity& entity = drawing.entities[i];
         if (entity.in_paper_space)
             continue;
@@ -37,9 +36,7 @@ void count_expanded(const dxf::Drawing& drawing, std::size_t first, std::size_t 
             counts[drawing.types[entity.type]] += copies;
         } else if (!find_inserted(drawing, entity, nullptr, use)) {
             const dxf::InsertFrame frame = insert_frame(drawing, entity);
-            const dxf::Block& block = drawing.blocks[use.block];
-            count_expanded(drawing, block.first_entity, block.entity_count, copies * frame.columns * frame.rows,
-                           counts);
+            count_expanded(drawing, drawing.blocks[use.block].entities, copies * frame.columns * frame.rows, counts);
         }
     }
 }
@@ -55,17 +52,17 @@ TEST(DxfCorpus, EveryFileHasTheEntitiesThatIndependentScriptsCounted)
         Report report;
         try {
             const dxf::Drawing drawing = dxf::read_drawing(shared_folder() / "fixtures/dxf" / name, report);
-            Counts counts;
-            for (std::size_t i = 0; i < drawing.model_entity_count; ++i)
-                ++counts[drawing.types[drawing.entities[drawing.first_model_entity + i].type]];
+            Counts counts, expanded;
+            for (const dxf::EntityRange& range : drawing.model) {
+                for (std::size_t i = range.first; i < range.first + range.count; ++i)
+                    ++counts[drawing.types[drawing.entities[i].type]];
+                count_expanded(drawing, range, 1, expanded);
+            }
             EXPECT_EQ(counts, entry["ground_truth"]["own_tag_reader"]["entities_section"].get<Counts>());
-            const json& expanded = entry["ground_truth"]["ezdxf"]["types_after_expanding_inserts"];
-            if (expanded.is_null())
-                continue;
-            counts.clear();
-            count_expanded(drawing, drawing.first_model_entity, drawing.model_entity_count, 1, counts);
-            if (counts != expanded.get<Counts>())
-                std::cout << name << ": expanded " << json(counts) << ", ezdxf " << expanded << "\n";
+            const json& reference = entry["ground_truth"]["ezdxf"];
+            if (reference.contains("types_after_expanding_inserts")) {
+                EXPECT_EQ(expanded, reference["types_after_expanding_inserts"].get<Counts>());
+            }
         } catch (const InputError& error) {
             ADD_FAILURE() << error.what();
         }
@@ -108,7 +105,7 @@ TEST(DxfCorpus, DrawingsOfBlenderAndFreecadImport)
         SCOPED_TRACE(item.path());
         const Imported imported = import_dxf(item.path(), {});
         EXPECT_NO_THROW(validate(imported.scene));
-        EXPECT_GT(imported.ledger.made_count(), 0u);
+        EXPECT_GT(imported.ledger.read_count(), 1000u);
         std::cout << item.path().filename().string() << ": " << imported.unit << ", read "
                   << imported.ledger.read_count() << ", made " << imported.ledger.made_count() << "\n"
                   << imported.report;

@@ -73,9 +73,9 @@ TEST(DxfUnits, ComeFromTheOptionTheHeaderOrAnAssumptionThatIsReported)
         {"9 $INSUNITS 70 6", "m (from $INSUNITS)", 12, false},
         {"9 $INSUNITS 70 4", "mm (from $INSUNITS)", 12e-6, false},
         {"9 $INSUNITS 70 2 9 $MEASUREMENT 70 1", "ft (from $INSUNITS)", 12 * 0.3048 * 0.3048, false},
-        {"9 $MEASUREMENT 70 1", "mm (assumed: $MEASUREMENT is metric)", 12e-6, true},
+        {"9 $MEASUREMENT 70 1", "m (assumed: in mm the model would be too small)", 12, true},
         {"9 $INSUNITS 70 0 9 $MEASUREMENT 70 0", "in (assumed: $MEASUREMENT is English)", 12 * 0.0254 * 0.0254, true},
-        {"9 $INSUNITS 70 99", "mm (assumed)", 12e-6, true},
+        {"9 $INSUNITS 70 99", "m (assumed: in mm the model would be too small)", 12, true},
     };
     for (const Case& c : cases) {
         SCOPED_TRACE(c.header);

@@ -1,0 +1,365 @@
+#include "engine/base/text.h"
+#include "importers/layer_words.h"
+#include "importers/layers.h"
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+namespace lightwell {
+namespace {
+
+using Ideas = std::set<std::string>;
+
+/// All of `ideas` (separated by blanks) together mean the material; the first row that holds decides.
+struct Proposal {
+    const char* ideas;
+    const char* material;
+};
+
+constexpr Proposal proposals[] = {
+    // --- emitters
+    {"exit light", "exit_sign"},
+    {"exit", "exit_sign"},
+    {"screen glass", "glass_single_clear"},
+    {"screen partition", "fabric"},
+    {"lightbox", "light_box"},
+    {"candle", "candle_flame"},
+    {"light pole", "painted_steel"},
+    {"light frame", "painted_steel"},
+    {"strip light", "light_strip"},
+    {"fluorescent", "fluorescent_t8"},
+    {"spot", "spot_lens"},
+    {"bulb", "lamp"},
+    {"light", "luminaire_panel"},
+    {"blind screen", "blind_pastel"},
+    {"screen", "screen"},
+    // --- glass, mirrors, shading
+    {"mirror", "mirror"},
+    {"frame window wood", "medium_wood"},
+    {"frame door wood", "medium_wood"},
+    {"frame window steel", "painted_steel"},
+    {"frame wood", "medium_wood"},
+    {"frame steel", "painted_steel"},
+    {"frame aluminium dark", "dark_anodised_aluminium"},
+    {"frame aluminium", "anodised_aluminium"},
+    {"frame curtainwall", "anodised_aluminium"},
+    {"frame plastic", "white_gloss_paint"},
+    {"frame window", "white_gloss_paint"},
+    {"frame door", "white_gloss_paint"},
+    {"frame glazing", "anodised_aluminium"},
+    {"sill", "white_gloss_paint"},
+    {"blind opal", "blind_white"},
+    {"blind dark", "blind_dark"},
+    {"blind black", "blind_dark"},
+    {"blind grey", "blind_pastel"},
+    {"blind metal", "blind_opaque"},
+    {"blind aluminium", "blind_opaque"},
+    {"blind", "blind_white"},
+    {"curtain wall", "glass_double_clear"},
+    {"curtain facade", "glass_double_clear"},
+    {"curtain", "curtain_light"},
+    {"acrylic opal", "acrylic_opal"},
+    {"acrylic translucent", "acrylic_opal"},
+    {"acrylic white", "acrylic_opal"},
+    {"acrylic", "acrylic_clear"},
+    {"polycarbonate", "polycarbonate_multiwall"},
+    {"etfe", "etfe_cushion"},
+    {"glass block", "glass_frosted"},
+    {"glass brick", "glass_frosted"},
+    {"glass opal", "glass_opal"},
+    {"glass frosted", "glass_frosted"},
+    {"glass translucent", "glass_frosted"},
+    {"glazing frosted", "glass_frosted"},
+    {"frosted", "glass_frosted"},
+    {"glass bronze", "glass_tinted_bronze"},
+    {"glass brown", "glass_tinted_bronze"},
+    {"glass green", "glass_tinted_green"},
+    {"glass grey", "glass_tinted_grey"},
+    {"glass dark", "glass_tinted_grey"},
+    {"glass tinted", "glass_tinted_grey"},
+    {"glazing tinted", "glass_tinted_grey"},
+    {"glass reflective", "glass_reflective"},
+    {"glass triple lowe", "glass_triple_low_e"},
+    {"glazing triple lowe", "glass_triple_low_e"},
+    {"glass triple", "glass_triple_clear"},
+    {"glazing triple", "glass_triple_clear"},
+    {"glass lowe", "glass_double_low_e"},
+    {"glazing lowe", "glass_double_low_e"},
+    {"glass double", "glass_double_clear"},
+    {"glazing double", "glass_double_clear"},
+    {"glass single", "glass_single_clear"},
+    {"glazing single", "glass_single_clear"},
+    {"glass window", "glass_double_clear"},
+    {"glass curtainwall", "glass_double_clear"},
+    {"glass facade", "glass_double_clear"},
+    {"glass exterior", "glass_double_clear"},
+    {"glass roof", "glass_double_clear"},
+    {"glass skylight", "glass_double_clear"},
+    {"glass", "glass_single_clear"},
+    {"glazing partition", "glass_single_clear"},
+    {"glazing railing", "glass_single_clear"},
+    {"glazing", "glass_double_clear"},
+    {"curtainwall", "glass_double_clear"},
+    {"curt wall", "glass_double_clear"},
+    {"curt", "glass_double_clear"},
+    {"skylight", "glass_double_clear"},
+    {"window", "glass_double_clear"},
+    {"membrane roof", "membrane_white"},
+    {"membrane white", "membrane_white"},
+    // --- metals
+    {"corten", "corten_steel"},
+    {"copper patina", "weathered_copper"},
+    {"patina", "weathered_copper"},
+    {"copper", "copper"},
+    {"brass", "brass"},
+    {"bronze", "dark_anodised_aluminium"},
+    {"chrome", "chrome"},
+    {"gold", "gold"},
+    {"zinc", "zinc"},
+    {"stainless", "stainless_steel"},
+    {"aluminium polished", "polished_aluminium"},
+    {"aluminium brushed", "brushed_aluminium"},
+    {"aluminium dark", "dark_anodised_aluminium"},
+    {"aluminium black", "dark_anodised_aluminium"},
+    {"aluminium", "anodised_aluminium"},
+    {"steel concrete", "concrete"},
+    {"steel painted", "painted_steel"},
+    {"steel paint", "painted_steel"},
+    {"steel", "steel"},
+    // --- what stands before its material
+    {"sanitary", "sanitary_porcelain"},
+    {"porcelain", "sanitary_porcelain"},
+    // --- mineral materials
+    {"concrete block", "concrete_block"},
+    {"concrete brick", "concrete_block"},
+    {"concrete white", "white_concrete"},
+    {"concrete pale", "light_concrete"},
+    {"concrete paving", "concrete_paving"},
+    {"concrete", "concrete"},
+    {"sandlime", "sand_lime_brick"},
+    {"tile roof", "terracotta"},
+    {"brick roof", "terracotta"},
+    {"terracotta", "terracotta"},
+    {"block", "concrete_block"},
+    {"brick dark", "dark_brick"},
+    {"brick yellow", "buff_brick"},
+    {"brick cream", "buff_brick"},
+    {"brick pale", "buff_brick"},
+    {"brick white", "sand_lime_brick"},
+    {"brick", "red_brick"},
+    {"limestone", "limestone"},
+    {"sandstone", "sandstone"},
+    {"granite", "granite"},
+    {"marble", "white_marble"},
+    {"slate", "slate"},
+    {"stone paving", "granite"},
+    {"stone", "limestone"},
+    {"carpet dark", "dark_carpet"},
+    {"carpet black", "dark_carpet"},
+    {"carpet", "carpet"},
+    {"tile acoustic", "acoustic_ceiling_tile"},
+    {"tile ceiling", "acoustic_ceiling_tile"},
+    {"acoustic ceiling", "acoustic_ceiling_tile"},
+    {"tile floor", "floor_tile"},
+    {"tile paving", "floor_tile"},
+    {"tile", "white_ceramic_tile"},
+    {"gypsum", "gypsum_board"},
+    {"plaster exterior", "render"},
+    {"plaster facade", "render"},
+    {"plaster", "white_plaster"},
+    {"render", "render"},
+    {"screed", "cement_screed"},
+    {"bitumenroof", "bitumen_roof"},
+    {"asphalt", "asphalt"},
+    // --- wood and floors
+    {"oak dark", "dark_oak"},
+    {"oak", "oak"},
+    {"walnut", "walnut"},
+    {"birch", "birch"},
+    {"maple", "maple"},
+    {"beech", "beech"},
+    {"pine", "pine"},
+    {"mahogany", "mahogany"},
+    {"parquet", "wood_floor"},
+    {"wood floor", "wood_floor"},
+    {"laminate floor", "wood_floor"},
+    {"laminate", "white_laminate"},
+    {"wood dark", "dark_wood"},
+    {"wood pale", "light_wood"},
+    {"wood white", "white_gloss_paint"},
+    {"wood", "medium_wood"},
+    {"linoleum", "linoleum"},
+    {"rubber", "rubber_floor"},
+    {"leather", "leather"},
+    {"fabric", "fabric"},
+    {"sofa", "fabric"},
+    {"metal", "painted_steel"},
+    // --- outdoors
+    {"green roof", "grass"},
+    {"tree trunk", "bark"},
+    {"trunk", "bark"},
+    {"tree leaf", "leaf"},
+    {"leaf", "leaf"},
+    {"tree", "foliage"},
+    {"plant", "foliage"},
+    {"grass", "grass"},
+    {"gravel", "gravel"},
+    {"snow", "snow"},
+    {"water", "water"},
+    {"soil", "soil"},
+    {"sand", "sand"},
+    {"road", "asphalt"},
+    {"paving", "concrete_paving"},
+    {"ground", "ground"},
+    {"fence", "painted_steel"},
+    {"vehicle", "painted_steel"},
+    {"building", "outside_facade"},
+    // --- parts, before colours where the colour of the part is not its paint
+    {"equipment", "grey_plastic"},
+    {"elevator", "stainless_steel"},
+    {"plastic", "grey_plastic"},
+    {"paper wall", "generic_wall"},
+    {"paper", "white_paper"},
+    // --- colours of paint
+    {"white furniture", "white_laminate"},
+    {"white door", "white_gloss_paint"},
+    {"white", "white_paint"},
+    {"black", "black_paint"},
+    {"grey dark", "dark_grey_paint"},
+    {"grey pale", "light_grey_paint"},
+    {"grey", "mid_grey_paint"},
+    {"cream", "cream_paint"},
+    {"red", "red_paint"},
+    {"yellow", "yellow_paint"},
+    {"green", "green_paint"},
+    {"blue", "blue_paint"},
+    {"brown", "brown_paint"},
+    {"paint", "white_paint"},
+    // --- parts without a material
+    {"kitchen", "white_laminate"},
+    {"furniture", "generic_furniture"},
+    {"partition", "generic_wall"},
+    {"railing", "stainless_steel"},
+    {"stair", "concrete"},
+    {"skirting", "white_gloss_paint"},
+    {"door", "light_wood"},
+    {"column", "concrete"},
+    {"beam", "concrete"},
+    {"foundation", "concrete"},
+    {"acoustic", "acoustic_ceiling_tile"},
+    {"ceiling", "generic_ceiling"},
+    {"roof", "light_roof"},
+    {"facade", "outside_facade"},
+    {"wall", "generic_wall"},
+    {"slab", "concrete"},
+    {"floor", "generic_floor"},
+    {"frame", "anodised_aluminium"},
+    {"membrane", "membrane_white"},
+};
+
+/// "light" beside one of these is an adjective: light wood, light grey.
+constexpr const char* can_be_light[] = {"wood",  "concrete", "grey",   "brick", "stone", "oak",     "metal",
+                                        "green", "blue",     "brown",  "paint", "red",   "plaster", "carpet",
+                                        "roof",  "steel",    "yellow", "beech", "tile",  "cream",   "pine"};
+
+void settle_light(Ideas& ideas)
+{
+    if (ideas.erase("lightword") == 0)
+        return;
+    const bool adjective = std::any_of(std::begin(can_be_light), std::end(can_be_light),
+                                       [&](const char* idea) { return ideas.contains(idea); });
+    ideas.insert(adjective ? "pale" : "light");
+}
+
+std::string material_for(Ideas ideas)
+{
+    settle_light(ideas);
+    if (ideas.contains("annotation") && !ideas.contains("light"))
+        return {};
+    for (const Proposal& proposal : proposals) {
+        const std::vector<std::string_view> wanted = split(proposal.ideas);
+        if (std::all_of(wanted.begin(), wanted.end(),
+                        [&](std::string_view idea) { return ideas.contains(std::string(idea)); }))
+            return proposal.material;
+    }
+    return {};
+}
+
+/// Beginning of an element code and the idea that it stands for.
+struct Code {
+    const char* beginning;
+    const char* idea;
+};
+
+/// Source  CI/SfB table 1, element codes, as ISO 13567 and BS 1192-5 layers carry them
+constexpr Code ci_sfb[] = {
+    {"11", "ground"},   {"13", "floor"},    {"16", "foundation"}, {"17", "foundation"}, {"21", "wall"},
+    {"22", "wall"},     {"23", "slab"},     {"24", "stair"},      {"27", "roof"},       {"28", "column"},
+    {"315", "door"},    {"31", "window"},   {"32", "door"},       {"34", "railing"},    {"35", "ceiling"},
+    {"37", "skylight"}, {"41", "render"},   {"42", "wall"},       {"43", "floor"},      {"44", "stair"},
+    {"45", "ceiling"},  {"47", "roof"},     {"5", "equipment"},   {"63", "light"},      {"6", "equipment"},
+    {"74", "sanitary"}, {"7", "furniture"}, {"8", "furniture"},   {"90", "ground"}};
+/// Source  Uniclass 1.4 table G, elements for buildings
+constexpr Code uniclass_g[] = {{"21", "foundation"}, {"22", "slab"},   {"23", "stair"},    {"24", "roof"},
+                               {"25", "wall"},       {"26", "column"}, {"32", "window"},   {"44", "sanitary"},
+                               {"4", "furniture"},   {"54", "light"},  {"5", "equipment"}, {"6", "equipment"},
+                               {"71", "ground"},     {"72", "fence"}};
+/// Source  Uniclass 2015 table EF, elements and functions
+constexpr Code uniclass_2015[] = {{"20_05", "foundation"}, {"20", "column"},    {"25_30", "window"},
+                                  {"25", "wall"},          {"30_10", "roof"},   {"30", "slab"},
+                                  {"35", "stair"},         {"40", "furniture"}, {"45", "plant"},
+                                  {"70_80", "light"},      {"70", "equipment"}, {"60", "equipment"}};
+
+template <std::size_t N>
+std::string material_of_code(const Code (&codes)[N], const std::string& digits)
+{
+    for (const Code& code : codes)
+        if (digits.starts_with(code.beginning))
+            return material_for({code.idea});
+    return {};
+}
+
+/// The element field of ISO 13567 (`A-220---E-`), BS 1192 (`A-G25-M_Walls`, `A210G7`) and Uniclass 2015
+/// (`A-EF_25_10-M`).
+std::string material_by_code(const std::string& layer)
+{
+    static const std::regex table_g{"^[A-Z][A-Z0-9]?-*G([0-9]{2,3})(?![0-9])", std::regex::optimize};
+    static const std::regex table_ef{"(?:^|[^A-Z])(?:EF|EE)_([0-9]{2}(?:_[0-9]{2})?)", std::regex::optimize};
+    static const std::regex positional{"^[A-Z][A-Z0-9-]\\(?([0-9]{2,6})[)-]", std::regex::optimize};
+    static const std::regex compact{"^[A-Z]([0-9]{3})[A-Z]", std::regex::optimize};
+    constexpr std::size_t longest_code = 64; // the engine recurses over its input
+    std::string text = layer.substr(0, longest_code);
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+    std::smatch match;
+    if (std::regex_search(text, match, table_g))
+        return material_of_code(uniclass_g, match[1]);
+    if (std::regex_search(text, match, table_ef))
+        return material_of_code(uniclass_2015, match[1]);
+    if (std::regex_search(text, match, positional) || std::regex_search(text, match, compact))
+        return material_of_code(ci_sfb, match[1]);
+    return {};
+}
+
+} // namespace
+
+std::string propose_material(const SurfaceKey& key)
+{
+    // What a file calls its material says most; then the layer, by words and by codes; then group and block.
+    for (const std::string* name : {&key.material, &key.layer}) {
+        const std::string material = material_for(ideas_in(*name));
+        if (!material.empty())
+            return material;
+    }
+    if (const std::string material = material_by_code(key.layer); !material.empty())
+        return material;
+    for (const std::string* name : {&key.group, &key.block}) {
+        const std::string material = material_for(ideas_in(*name));
+        if (!material.empty())
+            return material;
+    }
+    return {};
+}
+
+} // namespace lightwell

@@ -1,0 +1,120 @@
+#include "tests/unit/radiance/scene_folder.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace lightwell {
+namespace {
+
+TEST(SceneFixtures, TheCornellBoxHasTheSurfacesAndAreasOfItsGroundTruth)
+{
+    const std::filesystem::path folder = shared_data() / "fixtures/radiance";
+    if (!std::filesystem::exists(folder / "MANIFEST.json"))
+        GTEST_SKIP() << "the scenes are not here";
+    const auto manifest = nlohmann::json::parse(std::ifstream(folder / "MANIFEST.json"));
+    int checked = 0;
+    for (const auto& entry : manifest["entries"])
+        for (const auto& file : entry["files"]) {
+            const std::string name = file["file"];
+            if (!file.contains("ground_truth") || !name.starts_with("cornell_box/"))
+                continue;
+            SCOPED_TRACE(name);
+            Report report;
+            const Scene scene = read_radiance(folder / name, report);
+            validate(scene);
+            std::map<std::string, double> areas;
+            for (const Surface& surface : scene.root.surfaces)
+                if (surface.shape == Shape::polygon)
+                    areas[scene.modifiers[static_cast<std::size_t>(surface.modifier)].name] +=
+                        surface_area_m2(scene.root, surface);
+            for (const auto& [modifier, area] : file["ground_truth"]["polygon_area_per_modifier"].items())
+                EXPECT_NEAR(areas[modifier], area.get<double>(), 1e-6) << modifier;
+            ++checked;
+        }
+    EXPECT_GE(checked, 1);
+}
+
+TEST(SceneFixtures, EverySceneLoadsOrSaysExactlyWhatIsMissing)
+{
+    const std::filesystem::path folder = shared_data() / "fixtures/radiance";
+    if (!std::filesystem::is_directory(folder))
+        GTEST_SKIP() << "the scenes are not here";
+    int read = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() != ".rad" && entry.path().extension() != ".mat")
+            continue;
+        Report report;
+        try {
+            validate(read_radiance(entry.path(), report));
+            ++read;
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            // Each is one of: a name that another file defines, a command, or a type that is named.
+            const bool clear = message.find("is not defined above") != std::string::npos ||
+                               message.find("commands other than xform") != std::string::npos ||
+                               message.find("not modelled yet") != std::string::npos ||
+                               message.find("is not found") != std::string::npos ||
+                               message.find("the command uses") != std::string::npos;
+            EXPECT_TRUE(clear) << message;
+        }
+    }
+    EXPECT_GT(read, 30);
+}
+
+TEST(SceneFixtures, TheSkiesOfGenskyAreReadAndThoseOfGendaylitAreNamed)
+{
+    const std::filesystem::path record = shared_data() / "reference/sky-programs.json";
+    if (!std::filesystem::exists(record))
+        GTEST_SKIP() << "the records of the original programs are not here";
+    const auto data = nlohmann::json::parse(std::ifstream(record));
+    const SceneFolder folder;
+    int skies = 0;
+    for (const auto& sample : data["cases"]) {
+        if (sample["exit_status"] != 0)
+            continue;
+        SCOPED_TRACE(sample["id"].get<std::string>());
+        const std::string text = sample["output"];
+        const bool has_sky = text.find("brightfunc skyfunc") != std::string::npos;
+        const std::string use = "skyfunc glow g 0 0 4 1 1 1 0\ng source s 0 0 4 0 0 1 180\n";
+        const std::string error = folder.error(text + (has_sky ? use : ""));
+        if (sample["program"] == "gensky") {
+            EXPECT_EQ(error, "");
+        } else if (has_sky) {
+            EXPECT_NE(error.find("pattern that is not modelled yet"), std::string::npos) << error;
+        }
+        skies += error.empty() && has_sky ? 1 : 0;
+    }
+    EXPECT_EQ(skies, 57);
+}
+
+TEST(SceneFixtures, AForestOfTwoHundredMillionNeedlesIsAFewNestedInstances)
+{
+    const std::filesystem::path script = shared_data() / "reference/yardstick/scenes/f_forest.py";
+    if (!std::filesystem::exists(script) || !std::filesystem::exists("/usr/bin/python3"))
+        GTEST_SKIP() << "the script that makes the forest is not here";
+    const SceneFolder folder;
+    const std::string command =
+        "/usr/bin/python3 -B " + script.string() + " " + folder.path("").string() + " > /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    rusage before{}, after{};
+    getrusage(RUSAGE_SELF, &before);
+    Report report;
+    const Scene scene = read_radiance(folder.path("forest.rad"), report);
+    validate(scene);
+    getrusage(RUSAGE_SELF, &after);
+    ASSERT_EQ(scene.prototypes.size(), 4u);
+    EXPECT_EQ(scene.prototypes[0].name, "needle");
+    EXPECT_EQ(scene.prototypes[3].name, "stand");
+    // 150 needles x 60 sprays x 90 branches x 30 trees x 9 stands, a twig a branch, a trunk a tree, and 10 of
+    // forest.rad
+    const std::size_t needles = 150ul * 60 * 90 * 30 * 9;
+    EXPECT_EQ(needles, 218'700'000u);
+    EXPECT_EQ(expanded_count(scene), needles + 90 * 30 * 9 + 30 * 9 + 10);
+    EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 8 * 1024) << "kB";
+}
+
+} // namespace
+} // namespace lightwell
