@@ -1,5 +1,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "importers/layers.h"
 #include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
@@ -216,6 +217,30 @@ TEST(Gltf, CamerasBecomeViewsLightsAreCountedAndCopiesAreInstances)
     EXPECT_EQ(skipped_of_type(imported, "light"), 1u);
     EXPECT_EQ(imported.scene.root.instances.size(), 3u);
     EXPECT_NEAR(measure(imported).layers.at("Chairs").area_m2, truth["chairs_area_m2"].get<double>(), 1e-6);
+}
+
+TEST(Gltf, ALayerMapReachesEachInstanceOfASharedMesh)
+{
+    Imported imported = import_gltf(fixtures / "nodes.gltf", {});
+    LayerMap map;
+    LayerRule wall, floor;
+    wall.layer = "A-WALL";
+    wall.use = "Paint";
+    floor.layer = "A-FLOR*";
+    floor.use = "void";
+    map.rules = {wall, floor};
+    apply_layer_map(imported, map);
+    validate(imported.scene);
+    double area = 0;
+    visit_expanded(imported.scene,
+                   [&](const Part& part, const Surface& surface, const Affine& to_world, ModifierId modifier) {
+                       EXPECT_NE(resolve(imported.scene, modifier).material, nullptr);
+                       Share share;
+                       Box bounds;
+                       measure_surface(part, surface, to_world, share, bounds);
+                       area += share.area_m2;
+                   });
+    EXPECT_NEAR(area, 2 + 2 + 6 + 2, 1e-6); // all but the panel of A-FLOR-2
 }
 
 TEST(Gltf, OptionsOverrideUnitAndUpAxis)
