@@ -343,6 +343,29 @@ TEST(Gltf, ADamagedPrimitiveIsLeftOutAndTheRestIsKept)
     EXPECT_EQ(noted(imported.report, "accessor 9 of 1"), 1u);
 }
 
+TEST(Gltf, PrimitivesThatShareVerticesKeepOnlyTheirOwn)
+{
+    const Imported imported = import_gltf(fixtures / "modes.gltf", {});
+    for (const Surface& surface : imported.scene.root.surfaces) {
+        const Mesh& mesh = *imported.scene.root.meshes[surface.index];
+        const std::set<std::uint32_t> used(mesh.triangles.begin(), mesh.triangles.end());
+        EXPECT_EQ(used.size(), mesh.points.size()) << surface.name;
+    }
+    const Imported small = import_bytes(small_file("\"count\":3,", "\"count\":2,"));
+    EXPECT_TRUE(measure(small).bounds.empty()) << "two vertices make no triangle";
+}
+
+TEST(Gltf, ThousandsOfPrimitivesThatRepeatOneAccessorAreRefused)
+{
+    std::string text = R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":10000,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":120000}],
+"buffers":[{"byteLength":120000,"uri":"data:application/octet-stream;base64,)";
+    text.append(160000, 'A').append("\"}],\"meshes\":[{\"primitives\":[");
+    for (int i = 0; i < 4000; ++i)
+        text.append(i ? "," : "").append("{\"attributes\":{\"POSITION\":0}}");
+    EXPECT_NE(message_of(text + "]}]}").find("repeat the same accessors"), std::string::npos);
+}
+
 TEST(Gltf, ContentDecidesWhetherAFileIsGltf)
 {
     EXPECT_TRUE(recognize_gltf(fixtures / "nodes.gltf"));
