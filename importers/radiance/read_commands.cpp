@@ -98,7 +98,7 @@ void SceneReader::include(const Xform& xform, OpenFile& file, const std::string&
 {
     if (xform.plain) {
         for (const std::filesystem::path& path : xform.files)
-            read_file(path, &file, place, target);
+            read_file(path, &file, place, {target.part, target.scope, target.first_file, false});
         return;
     }
     std::optional<ModifierId> modifier;
