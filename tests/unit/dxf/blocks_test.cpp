@@ -115,6 +115,16 @@ TEST(DxfBlocks, OfOtherFilesAndUndefinedOnesAreReported)
     EXPECT_TRUE(imported.report.has(Finding::unsupported));
 }
 
+TEST(DxfBlocks, ThatAreClippedAreReported)
+{
+    std::string text = drawing("", triangle("RED", "", "A"));
+    text.insert(text.rfind("0\nEOF"), tags("0 SECTION 2 OBJECTS 0 SPATIAL_FILTER 5 1A 0 SPATIAL_FILTER 5 1B 0 ENDSEC"));
+    const Imported imported = imported_text(text);
+    ASSERT_EQ(imported.report.notes().size(), 1u);
+    EXPECT_EQ(imported.report.notes()[0].finding, Finding::unsupported);
+    EXPECT_EQ(imported.report.notes()[0].count, 2u);
+}
+
 TEST(DxfNames, AreDecodedFromCodePagesEscapesAndUtf8)
 {
     struct Case {
