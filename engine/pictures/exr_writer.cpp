@@ -184,6 +184,8 @@ void check_exr_layout(const std::string& place, const Picture& layout, int tile_
     constexpr int largest_tile = 4096;
     if (tile_size < 1 || tile_size > largest_tile)
         throw InputError{place, "tile size is " + std::to_string(tile_size) + ", expected 1 to 4096 pixels"};
+    if (layout.channels.empty())
+        throw InputError{place, "picture to be written has no channel", "add at least one"};
     header_of(layout, tile_size, false, place);
 }
 
