@@ -141,6 +141,8 @@ void SceneReader::read_comment(OpenFile& file, std::string_view comment, Target 
         View view = parse_view(std::string(words, comment.data() + comment.size()), place);
         view.name = decoded_name(fields[1]);
         scene_.views.push_back(std::move(view));
+    } else if (trimmed(comment) == sharp_horizon_comment) {
+        file.sharp_horizon = true;
     } else if (fields[0].starts_with("#@grid") && target.first_file) {
         read_grid(place, fields);
     }

@@ -26,6 +26,7 @@ private:
         std::string last_modifier = {}; ///< consecutive surfaces mostly share theirs
         Meaning last_meaning = {};
         bool last_known = false;
+        bool sharp_horizon = false; ///< of the next sky
         /// Prototypes of the files that its instances name: spares the search for each of a million instances.
         std::unordered_map<std::string, std::uint32_t, NameHash, std::equal_to<>> instances = {};
     };
