@@ -1,6 +1,7 @@
 #include "engine/base/text.h"
 #include "importers/layer_words.h"
 #include "importers/layers.h"
+#include "materials/library.h"
 
 #include <algorithm>
 #include <regex>
@@ -248,6 +249,8 @@ constexpr Proposal proposals[] = {
     {"skirting", "white_gloss_paint"},
     {"door", "light_wood"},
     {"column", "concrete"},
+    {"rafter", "medium_wood"},
+    {"sunshade", "anodised_aluminium"},
     {"beam", "concrete"},
     {"foundation", "concrete"},
     {"acoustic", "acoustic_ceiling_tile"},
@@ -345,14 +348,25 @@ std::string material_by_code(const std::string& layer)
     return {};
 }
 
+/// A name of the library itself, however its words are joined: `Led-Panel 4000cd`.
+std::string material_of_that_name(const std::string& name)
+{
+    std::string entry = folded(name);
+    std::replace_if(
+        entry.begin(), entry.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+    // Who calls a layer black means paint, not the perfect absorber.
+    return entry != "black" && find_in_library(entry) ? entry : std::string();
+}
+
 } // namespace
 
 std::string propose_material(const SurfaceKey& key)
 {
     // What a file calls its material says most; then the layer, by words and by codes; then group and block.
     for (const std::string* name : {&key.material, &key.layer}) {
-        const std::string material = material_for(ideas_in(*name));
-        if (!material.empty())
+        if (const std::string material = material_of_that_name(*name); !material.empty())
+            return material;
+        if (const std::string material = material_for(ideas_in(*name)); !material.empty())
             return material;
     }
     if (const std::string material = material_by_code(key.layer); !material.empty())
