@@ -319,10 +319,26 @@ TEST(Propose, EveryProposalIsInTheLibrary)
 
 TEST(Propose, HostileNamesAreSurvived)
 {
-    for (const std::string& name :
-         {std::string(1000000, 'A'), std::string(100000, '-'), std::string("\xFF\xFE\x80\xC3"), std::string("\xE5\xA2"),
-          std::string(3, '\0'), "A-G" + std::string(100000, '9'), std::string(5000, '(')})
-        EXPECT_NO_THROW(proposed(name));
+    const std::vector<std::string> names{std::string(1000000, 'A'),
+                                         std::string(100000, '-'),
+                                         "\xFF\xFE\x80\xC3",
+                                         "\xE5\xA2",
+                                         std::string(3, '\0'),
+                                         "A-G" + std::string(100000, '9'),
+                                         std::string(5000, '('),
+                                         "EF_25",
+                                         "A-EF_",
+                                         "A-EF_2",
+                                         "A-EF_25_",
+                                         "A-(",
+                                         "A-(2",
+                                         "A-G",
+                                         "A-",
+                                         "G25",
+                                         "A210",
+                                         "A21"};
+    for (const std::string& name : names)
+        EXPECT_NO_THROW(proposed(name)) << name.substr(0, 20);
 }
 
 } // namespace
