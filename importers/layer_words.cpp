@@ -61,6 +61,8 @@ constexpr Idea ideas[] = {
     {"beam",
      "beam beams =jois joist joists girder truss balken trager traeger unterzug poutre poutres viga vigas trave "
      "travi 梁"},
+    {"rafter", "rafter rafters sparren dachstuhl chevron chevrons"},
+    {"sunshade", "=shad sunshade sunshades lightshelf brisesoleil sonnensegel 遮阳板"},
     {"foundation", "foundation foundations =fndn footing fundament fundamente fondation fondations cimentacion "
                    "fondazione fondazioni 基础"},
     {"furniture",
@@ -84,7 +86,7 @@ constexpr Idea ideas[] = {
     {"light",
      "lights lighting =lite luminaire luminaires lightfixture lightfixtures leuchte leuchten beleuchtung licht "
      "lichter eclairage lumiere lumieres luminaria luminarias iluminacion luz luces illuminazione luce luci "
-     "lamp lamps lampe lampen lampes lampara lamparas lampada lampade apparecchio apparecchi 灯 灯具 照明"},
+     "led leds lamp lamps lampe lampen lampes lampara lamparas lampada lampade apparecchio apparecchi 灯 灯具 照明"},
     {"lightword", "light"},
     {"bulb", "bulb bulbs gluhbirne gluehbirne ampoule bombilla lampadina 灯泡"},
     {"spot",
@@ -203,7 +205,7 @@ constexpr Idea ideas[] = {
      "=road roads street driveway parking =pkng =pvmt strasse strassen fahrbahn parkplatz route chaussee voirie "
      "calle carretera estacionamiento strada strade parcheggio 道路 马路 停车场"},
     {"park", "=park =parks"},
-    {"paving", "paving pavement pavers sidewalk walk walkway footpath gehweg pflaster pflasterung trottoir acera "
+    {"paving", "=pave paving pavement pavers sidewalk walk walkway footpath gehweg pflaster pflasterung trottoir acera "
                "marciapiede terrace terrasse terraza terrazza =patio 人行道 铺装 广场"},
     {"gravel", "gravel kies schotter gravier grava ghiaia 砾石 碎石"},
     {"sand", "sand =sable =arena sabbia 沙"},
