@@ -24,7 +24,7 @@ Meaning SceneReader::meaning_of(OpenFile& file, const Primitive& primitive, std:
     if (!meaning)
         throw InputError{file.words.place(primitive), fmt::format("modifier \"{}\" is not defined above", decoded),
                          parse_double(name) ? "check the counts of the primitive before it"
-                                            : "define it first, or include the file that does"};
+                                            : "define it first, or include the file that does: `!xform FILE`"};
     return *meaning;
 }
 

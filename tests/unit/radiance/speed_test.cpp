@@ -14,7 +14,7 @@ std::string many_polygons(std::size_t bytes)
     text.reserve(bytes + 1000);
     char line[300];
     for (int i = 0; text.size() < bytes; ++i) {
-        const double x = i % 1000 * 0.25, y = i / 1000 * 0.25, z = (i * 7919 % 1000) * 0.001 + 0.123456;
+        const double x = i % 1000 * 0.25, y = i / 1000 * 0.25, z = (i % 1000 * 7919 % 1000) * 0.001 + 0.123456;
         const int n = std::snprintf(
             line, sizeof line, "%s polygon p%d\n0\n0\n12 %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f\n",
             i % 10 == 0 ? "white" : "grey", i, x, y, z, x + .2, y, z, x + .2, y + .2, z, x, y + .2, z);
