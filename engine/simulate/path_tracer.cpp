@@ -26,9 +26,12 @@ struct PathTracer::Walk {
     bool at_first = true;          ///< no scattering has happened yet
     std::optional<Hit> first;      ///< what the ray from the eye met
     bool first_is_diffuse = false; ///< so that its scattered light tells its irradiance
-    bool no_shadow_rays = true;    ///< the last scattering was a single direction: sources are met in full
-    double scattered_density = 0;  ///< of the last scattering
-    SourceShares shares;           ///< of the shadow rays there
+    Spectrum first_reflectance;    ///< diffuse
+    Spectrum direct_irradiance;    ///< on the first surface
+    double closeness_per_m = 0;
+    bool no_shadow_rays = true;   ///< the last scattering was a single direction: sources are met in full
+    double scattered_density = 0; ///< of the last scattering
+    SourceShares shares;          ///< of the shadow rays there
     int scatterings = 0;
 
     void add(Spectrum light)
@@ -90,7 +93,7 @@ void PathTracer::gather_at(Walk& walk, const Vertex& vertex, const Scattering& s
     const Gathered direct = direct_.gather(vertex, scattering, first ? first_rays : later_rays, random, walk.shares);
     walk.radiance += walk.throughput * direct.radiance;
     if (first)
-        walk.irradiance += direct.irradiance;
+        walk.irradiance = walk.direct_irradiance = direct.irradiance;
     else
         walk.irradiance += walk.arriving_throughput * direct.radiance;
 }
@@ -136,6 +139,9 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     }
     if (!walk.first)
         walk.first = hit;
+    if (walk.scatterings ==
+        1) // arriving_throughput / pi turns the mean over scattered rays into the cosine-weighted one
+        walk.closeness_per_m = walk.arriving_throughput.max() / (pi * hit.t);
     const auto modifier = static_cast<std::size_t>(hit.modifier);
     const Material* material = materials_[modifier];
     if (std::holds_alternative<Illum>(*material) && (walk.no_shadow_rays || dot(hit.normal, walk.ray.direction) > 0)) {
@@ -159,8 +165,10 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
         walk.arriving_throughput *= kept;
     }
     const Lobes& lobes = vertex.bsdf.lobes();
-    if (walk.at_first)
+    if (walk.at_first) {
         walk.first_is_diffuse = !lobes.diffuse_reflectance.is_black();
+        walk.first_reflectance = lobes.diffuse_reflectance;
+    }
     if (!lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black() || lobes.glossy)
         gather_at(walk, vertex, scattering, random);
     return scatter(walk, vertex, scattering, random);
@@ -180,6 +188,9 @@ PathSample PathTracer::sample(const Ray& ray, PathRandom& random) const
     PathSample result;
     result.radiance = walk.radiance;
     result.irradiance = walk.irradiance;
+    result.indirect_irradiance = walk.irradiance - walk.direct_irradiance;
+    result.diffuse_reflectance = walk.first_reflectance;
+    result.closeness_per_m = walk.closeness_per_m;
     if (!walk.first)
         return result;
     const Hit& first = *walk.first;
