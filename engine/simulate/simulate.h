@@ -57,7 +57,7 @@ struct GridResult {
 };
 
 /// A scene made ready for light: ray queries, list of sources. Rendering does not change it.
-/// Error: unbiased; the standard error stated with each value is that of the mean of independent samples.
+/// Error: unbiased; the standard error stated with each value is that of the mean of eight independent replicates.
 class Simulation {
 public:
     /// @throws InputError from validate(scene)
