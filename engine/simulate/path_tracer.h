@@ -31,12 +31,12 @@ public:
 
 private:
     struct Walk;
-    bool scatter(Walk& walk, const Vertex& vertex, const Scattering& scattering, PathRandom& random) const;
+    bool scatter(Walk& walk, const Vertex& vertex, PathRandom& random) const;
     void meet_distant(Walk& walk) const;
     bool meet_surface(Walk& walk, PathRandom& random) const;
     void meet_emitter(Walk& walk, const Hit& hit, const Material& material) const;
     void run(Walk& walk, PathRandom& random) const;
-    void gather_at(Walk& walk, const Vertex& vertex, const Scattering& scattering, PathRandom& random) const;
+    void gather_at(Walk& walk, const Vertex& vertex, PathRandom& random) const;
 
     const Scene& scene_;
     const RayQueries& rays_;

@@ -12,10 +12,10 @@ namespace {
 
 /// Largest distance shared over, as a share of the harmonic mean distance: a symmetric neighbourhood cancels the
 /// linear change of irradiance, so this may be wider than for a one-sided record.
-constexpr double share_of_distance = 0.25;
+constexpr double share_of_distance = 0.2;
 /// ... and in pixels: enough to average a few hundred, few enough to stay quick.
 constexpr int most_pixels = 24;
-constexpr double least_pixels = 1.5;
+constexpr double least_pixels = 1;
 /// Cosine between normals and slope of the offset out of the plane that count as the same surface.
 constexpr double same_cosine = 0.95, same_slope = 0.15;
 /// Neighbours over which the closeness is averaged before it is used.

@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/threads.h"
+#include "engine/sampling/statistics.h"
 #include "engine/simulate/path_tracer.h"
 #include "engine/simulate/replicates.h"
 #include "engine/simulate/shared_irradiance.h"
@@ -73,8 +74,8 @@ private:
 };
 
 struct PixelResult {
-    ReplicateMean channel[3], luminance, illuminance;
-    ReplicateMean rest[3], rest_luminance, indirect[3], indirect_illuminance; ///< for sharing
+    RunningStatistics channel[3], luminance, illuminance;
+    RunningStatistics rest[3], rest_luminance, indirect[3], indirect_illuminance; ///< for sharing
     Spectrum reflectance_sum;
     double closeness_sum = 0;
     double depth_sum = 0;
@@ -87,7 +88,7 @@ struct PixelTask {
     const PathTracer& tracer;
     int width, height;
     std::uint64_t seed;
-    double aft_m;
+    double reach_m; ///< between the clipping distances
 
     PixelResult operator()(int x, int y, int samples) const
     {
@@ -117,7 +118,7 @@ private:
         Spectrum indirect;  ///< irradiance on the first surface by scattered rays
         Spectrum scattered; ///< what that surface sends to the eye of it, diffusely
     };
-    static void add_colour(ReplicateMean (&means)[3], Spectrum colour)
+    static void add_colour(RunningStatistics (&means)[3], Spectrum colour)
     {
         means[0].add(colour.r);
         means[1].add(colour.g);
@@ -129,7 +130,7 @@ private:
         ViewRay start;
         if (!camera.ray((x + jitter.u) / width, 1 - (y + jitter.v) / height, start))
             return;
-        const PathSample path = tracer.sample({start.origin, start.direction, aft_m > 0 ? aft_m : infinity}, random);
+        const PathSample path = tracer.sample({start.origin, start.direction, reach_m}, random);
         sums.radiance += path.radiance;
         if (!path.met_surface)
             return;
@@ -325,7 +326,8 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     check_size(view, settings);
     check_accuracy(settings.accuracy, "view " + view.name);
     const Camera camera(view);
-    const PixelTask pixel{camera, parts_->tracer, settings.width, settings.height, settings.seed, view.aft_m};
+    const PixelTask pixel{camera,          parts_->tracer, settings.width,
+                          settings.height, settings.seed,  view.aft_m > 0 ? view.aft_m - view.fore_m : infinity};
     PictureResult result;
     result.samples =
         settings.samples > 0 ? whole_replicates(settings.samples) : pilot_pixels(pixel, settings, progress);
@@ -382,7 +384,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
             here.position = sensor.position;
             here.error_m =
                 sensor_lift * parts_->size_m + 64 * std::numeric_limits<double>::epsilon() * max_abs(sensor.position);
-            ReplicateMean mean;
+            RunningStatistics mean;
             const auto each = static_cast<std::uint32_t>(samples / replicates);
             for (std::uint64_t r = 0; r < replicates; ++r) {
                 Spectrum sum;

@@ -66,7 +66,7 @@ struct GridResult {
 
 /// A scene made ready for light: ray queries, list of sources. Rendering does not change it.
 /// Error: grids and pictures with `unbiased` are unbiased; the standard error stated with each value is that of the
-/// mean of independent samples.
+/// mean of eight independent replicates.
 class Simulation {
 public:
     /// @throws InputError from validate(scene)
