@@ -21,11 +21,11 @@ Simulation room()
     return Simulation(std::move(scene));
 }
 
-PictureResult picture(const Simulation& simulation, int samples, bool unbiased)
+PictureResult picture(const Simulation& simulation, int width, int samples, bool unbiased)
 {
     PictureSettings settings;
-    settings.width = 96;
-    settings.height = 72;
+    settings.width = width;
+    settings.height = width * 3 / 4;
     settings.samples = samples;
     settings.unbiased = unbiased;
     View view;
@@ -41,13 +41,13 @@ double luminance(const Picture& p, int x, int y)
     return luminance_of({p.at("R", x, y), p.at("G", x, y), p.at("B", x, y)}).value;
 }
 
-/// The plain picture with 16 times the samples is the reference. Means over blocks of 12 x 12 pixels agree within 2 %
-/// (noise of a block below 0.4 %), while the stated error of single pixels falls to less than half.
+/// The plain picture of the same samples is the reference: most of the noise of a block of 12 x 12 pixels, 1 % with 128
+/// samples, is in both, and what is left of it in their ratio is near 0.3 %. The ratio stays within 2 % of 1, while the
+/// stated error of single pixels falls to less than half.
 TEST(SharedIrradiance, KeepsTheMeansOfSmallBlocksAndLowersTheNoise)
 {
     const Simulation simulation = room();
-    const PictureResult plain = picture(simulation, 16, true), shared = picture(simulation, 16, false),
-                        reference = picture(simulation, 256, true);
+    const PictureResult plain = picture(simulation, 96, 128, true), shared = picture(simulation, 96, 128, false);
     EXPECT_LT(shared.median_relative_error, 0.5 * plain.median_relative_error);
     EXPECT_LT(shared.sharing_bias, 0.02);
     constexpr int block = 12;
@@ -57,7 +57,7 @@ TEST(SharedIrradiance, KeepsTheMeansOfSmallBlocksAndLowersTheNoise)
             for (int v = y; v < y + block; ++v)
                 for (int u = x; u < x + block; ++u) {
                     found += luminance(shared.picture, u, v);
-                    expected += luminance(reference.picture, u, v);
+                    expected += luminance(plain.picture, u, v);
                 }
             EXPECT_NEAR(found / expected, 1, 0.02) << "block at " << x << ", " << y;
         }
@@ -68,11 +68,12 @@ TEST(SharedIrradiance, KeepsTheMeansOfSmallBlocksAndLowersTheNoise)
 TEST(SharedIrradiance, StatesTheErrorThatItHas)
 {
     const Simulation simulation = room();
-    const Picture shared = picture(simulation, 16, false).picture, reference = picture(simulation, 512, true).picture;
+    const Picture shared = picture(simulation, 48, 16, false).picture,
+                  reference = picture(simulation, 48, 512, true).picture;
     double squares = 0;
     int count = 0;
-    for (int y = 0; y < 72; ++y)
-        for (int x = 0; x < 96; ++x) {
+    for (int y = 0; y < 36; ++y)
+        for (int x = 0; x < 48; ++x) {
             const double error = std::hypot(shared.at("error.Y", x, y), reference.at("error.Y", x, y));
             if (!(error > 0))
                 continue;
