@@ -54,7 +54,7 @@ TEST_P(DeliberateError, OfTwoPercentIsNoticedByTheDetectionRowsOfItsTechniqueAnd
 INSTANTIATE_TEST_SUITE_P(EachTechnique, DeliberateError,
                          testing::Values(Technique::direct, Technique::sky, Technique::glass,
                                          Technique::interreflection),
-                         [](const auto& info) { return technique_names(static_cast<unsigned>(info.param))[0]; });
+                         [](const auto& each) { return technique_names(static_cast<unsigned>(each.param))[0]; });
 
 TEST(Validation, ResultsDoNotDependOnTheNumberOfThreads)
 {
