@@ -21,12 +21,12 @@ void unmake_by_key(Imported& imported, const std::vector<Choice>& choices)
 
 void unmake_dropped(Imported& imported, const std::vector<Choice>& choices, const Rebuilt& rebuilt)
 {
-    if (imported.made_with_key.empty()) {
-        for (const DroppedEntity& entity : rebuilt.dropped)
-            imported.ledger.unmake(imported.keys[static_cast<std::size_t>(entity.key)].entity,
+    unmake_by_key(imported, choices);
+    for (const DroppedEntity& entity : rebuilt.dropped) {
+        const auto key = static_cast<std::size_t>(entity.key);
+        if (key >= imported.made_with_key.size())
+            imported.ledger.unmake(imported.keys[key].entity,
                                    imported.keys[static_cast<std::size_t>(entity.layer)].layer, void_reason);
-    } else {
-        unmake_by_key(imported, choices);
     }
     if (rebuilt.dropped_instances > 0)
         imported.report.add(Finding::ignored, "layer map",

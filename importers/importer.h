@@ -31,8 +31,8 @@ struct Imported {
     std::vector<std::pair<std::string, Material>> file_materials;
     std::string unit; ///< as reported: "mm (from $INSUNITS)", "m (glTF)", ...
     Ledger ledger;    ///< entities read = made + skipped
-    /// Entities made into surfaces of keys[i]; empty when there is one entity for each surface name. Only formats that
-    /// gather many entities in one mesh need it, so that the ledger stays right when a layer map drops a layer.
+    /// Entities made into surfaces of keys[i]; for keys beyond its end there is one entity for each surface name. Only
+    /// formats that gather many entities in one mesh need it, so that the ledger stays right when a layer is dropped.
     std::vector<std::size_t> made_with_key;
     Report report;
 };

@@ -61,6 +61,8 @@ constexpr Idea ideas[] = {
     {"beam",
      "beam beams =jois joist joists girder truss balken trager traeger unterzug poutre poutres viga vigas trave "
      "travi 梁"},
+    {"rafter", "rafter rafters sparren dachstuhl chevron chevrons"},
+    {"sunshade", "=shad sunshade sunshades lightshelf brisesoleil sonnensegel 遮阳板"},
     {"foundation", "foundation foundations =fndn footing fundament fundamente fondation fondations cimentacion "
                    "fondazione fondazioni 基础"},
     {"furniture",
@@ -84,7 +86,7 @@ constexpr Idea ideas[] = {
     {"light",
      "lights lighting =lite luminaire luminaires lightfixture lightfixtures leuchte leuchten beleuchtung licht "
      "lichter eclairage lumiere lumieres luminaria luminarias iluminacion luz luces illuminazione luce luci "
-     "lamp lamps lampe lampen lampes lampara lamparas lampada lampade apparecchio apparecchi 灯 灯具 照明"},
+     "led leds lamp lamps lampe lampen lampes lampara lamparas lampada lampade apparecchio apparecchi 灯 灯具 照明"},
     {"lightword", "light"},
     {"bulb", "bulb bulbs gluhbirne gluehbirne ampoule bombilla lampadina 灯泡"},
     {"spot",
@@ -100,7 +102,8 @@ constexpr Idea ideas[] = {
     {"pole", "=pole =poles =post housing =mast gehause gehaeuse 灯杆"},
     // --- glass and shading
     {"glass", "glass glas verre verres vidrio vidrios vetro vetri cristal cristales 玻璃"},
-    {"glazing", "glazing =glaz glazed verglasung vitrage vitrages vitre vitree vitrees vitrine acristalamiento vetrata "
+    {"glazing", "glazing =glaz glazed verglasung isolierglas isolierverglasung vitrage vitrages vitre vitree vitrees "
+                "vitrine acristalamiento vetrata "
                 "vetrate 门窗玻璃"},
     {"frosted", "frosted sandblasted etched obscure obscured satin satinato satiniert milchglas mattglas depoli opaco "
                 "esmerilado 磨砂"},
@@ -201,7 +204,8 @@ constexpr Idea ideas[] = {
     {"road",
      "=road roads street driveway parking =pkng =pvmt strasse strassen fahrbahn parkplatz route chaussee voirie "
      "calle carretera estacionamiento strada strade parcheggio 道路 马路 停车场"},
-    {"paving", "paving pavement pavers sidewalk walk walkway footpath gehweg pflaster pflasterung trottoir acera "
+    {"park", "=park =parks"},
+    {"paving", "=pave paving pavement pavers sidewalk walk walkway footpath gehweg pflaster pflasterung trottoir acera "
                "marciapiede terrace terrasse terraza terrazza =patio 人行道 铺装 广场"},
     {"gravel", "gravel kies schotter gravier grava ghiaia 砾石 碎石"},
     {"sand", "sand =sable =arena sabbia 沙"},

@@ -1,9 +1,9 @@
 #include "engine/base/text.h"
 #include "importers/layer_words.h"
 #include "importers/layers.h"
+#include "materials/library.h"
 
 #include <algorithm>
-#include <regex>
 #include <set>
 
 namespace lightwell {
@@ -56,6 +56,7 @@ constexpr Proposal proposals[] = {
     {"blind metal", "blind_opaque"},
     {"blind aluminium", "blind_opaque"},
     {"blind", "blind_white"},
+    {"curtain wall frame", "anodised_aluminium"},
     {"curtain wall", "glass_double_clear"},
     {"curtain facade", "glass_double_clear"},
     {"curtain", "curtain_light"},
@@ -202,17 +203,19 @@ constexpr Proposal proposals[] = {
     {"tree leaf", "leaf"},
     {"leaf", "leaf"},
     {"tree", "foliage"},
-    {"plant", "foliage"},
     {"grass", "grass"},
+    {"plant", "foliage"},
     {"gravel", "gravel"},
     {"snow", "snow"},
     {"water", "water"},
     {"soil", "soil"},
     {"sand", "sand"},
+    {"fence", "painted_steel"},
+    {"vehicle park", "asphalt"},
+    {"park", "grass"},
     {"road", "asphalt"},
     {"paving", "concrete_paving"},
     {"ground", "ground"},
-    {"fence", "painted_steel"},
     {"vehicle", "painted_steel"},
     {"building", "outside_facade"},
     // --- parts, before colours where the colour of the part is not its paint
@@ -245,6 +248,8 @@ constexpr Proposal proposals[] = {
     {"skirting", "white_gloss_paint"},
     {"door", "light_wood"},
     {"column", "concrete"},
+    {"rafter", "medium_wood"},
+    {"sunshade", "anodised_aluminium"},
     {"beam", "concrete"},
     {"foundation", "concrete"},
     {"acoustic", "acoustic_ceiling_tile"},
@@ -320,26 +325,87 @@ std::string material_of_code(const Code (&codes)[N], const std::string& digits)
     return {};
 }
 
-/// The element field of ISO 13567 (`A-220---E-`), BS 1192 (`A-G25-M_Walls`, `A210G7`) and Uniclass 2015
-/// (`A-EF_25_10-M`).
+bool is_capital(char c)
+{
+    return c >= 'A' && c <= 'Z';
+}
+bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+/// The run of digits that begins at a place.
+std::string digits_at(const std::string& text, std::size_t at)
+{
+    std::size_t end = std::min(at, text.size());
+    while (end < text.size() && is_digit(text[end]))
+        ++end;
+    return text.substr(std::min(at, text.size()), end - std::min(at, text.size()));
+}
+
+/// `A-G25-M`, `A2G251`: a role of one or two characters, hyphens, then G with two or three digits.
+std::string uniclass_g_code(const std::string& text)
+{
+    const std::size_t second = text.size() > 1 && text[1] != '-' && text[1] != 'G' ? 2 : 1;
+    const std::size_t g = text.find_first_not_of('-', second);
+    if (text.empty() || !is_capital(text[0]) || g == std::string::npos || text[g] != 'G')
+        return {};
+    const std::string digits = digits_at(text, g + 1);
+    return digits.size() == 2 || digits.size() == 3 ? digits : std::string();
+}
+
+/// `A-EF_25_10-M`: two digits, and two more after an underscore when they are there.
+std::string uniclass_2015_code(const std::string& text)
+{
+    for (const char* table : {"EF_", "EE_"}) {
+        const std::size_t at = text.find(table);
+        if (at == std::string::npos || (at > 0 && is_capital(text[at - 1])))
+            continue;
+        const std::string group = digits_at(text, at + 3), sub_group = digits_at(text, at + 6);
+        if (group.size() == 2)
+            return text[at + 5] == '_' && sub_group.size() == 2 ? group + '_' + sub_group : group;
+    }
+    return {};
+}
+
+/// `A-220---E-`, `A-(21)-G`: role of two characters, then the element of up to six; `A210G7`: role, three digits.
+std::string ci_sfb_code(const std::string& text)
+{
+    if (text.size() < 5 || !is_capital(text[0]))
+        return {};
+    const std::string compact = digits_at(text, 1);
+    if (compact.size() == 3 && is_capital(text[4]))
+        return compact;
+    const bool bracket = text[2] == '(';
+    const std::string digits = digits_at(text, bracket ? 3 : 2);
+    const std::size_t after = (bracket ? 3 : 2) + digits.size();
+    const bool ends = after < text.size() && (text[after] == '-' || text[after] == ')');
+    return digits.size() >= 2 && digits.size() <= 6 && ends ? digits : std::string();
+}
+
+/// The element field of ISO 13567, BS 1192 and Uniclass layers.
 std::string material_by_code(const std::string& layer)
 {
-    static const std::regex table_g{"^[A-Z][A-Z0-9]?-*G([0-9]{2,3})(?![0-9])", std::regex::optimize};
-    static const std::regex table_ef{"(?:^|[^A-Z])(?:EF|EE)_([0-9]{2}(?:_[0-9]{2})?)", std::regex::optimize};
-    static const std::regex positional{"^[A-Z][A-Z0-9-]\\(?([0-9]{2,6})[)-]", std::regex::optimize};
-    static const std::regex compact{"^[A-Z]([0-9]{3})[A-Z]", std::regex::optimize};
-    constexpr std::size_t longest_code = 64; // the engine recurses over its input
-    std::string text = layer.substr(0, longest_code);
+    std::string text = layer;
     std::transform(text.begin(), text.end(), text.begin(),
                    [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-    std::smatch match;
-    if (std::regex_search(text, match, table_g))
-        return material_of_code(uniclass_g, match[1]);
-    if (std::regex_search(text, match, table_ef))
-        return material_of_code(uniclass_2015, match[1]);
-    if (std::regex_search(text, match, positional) || std::regex_search(text, match, compact))
-        return material_of_code(ci_sfb, match[1]);
+    if (const std::string code = uniclass_g_code(text); !code.empty())
+        return material_of_code(uniclass_g, code);
+    if (const std::string code = uniclass_2015_code(text); !code.empty())
+        return material_of_code(uniclass_2015, code);
+    if (const std::string code = ci_sfb_code(text); !code.empty())
+        return material_of_code(ci_sfb, code);
     return {};
+}
+
+/// A name of the library itself, however its words are joined: `Led-Panel 4000cd`.
+std::string material_of_that_name(const std::string& name)
+{
+    std::string entry = folded(name);
+    std::replace_if(
+        entry.begin(), entry.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+    // Who calls a layer black means paint, not the perfect absorber.
+    return entry != "black" && find_in_library(entry) ? entry : std::string();
 }
 
 } // namespace
@@ -348,8 +414,9 @@ std::string propose_material(const SurfaceKey& key)
 {
     // What a file calls its material says most; then the layer, by words and by codes; then group and block.
     for (const std::string* name : {&key.material, &key.layer}) {
-        const std::string material = material_for(ideas_in(*name));
-        if (!material.empty())
+        if (const std::string material = material_of_that_name(*name); !material.empty())
+            return material;
+        if (const std::string material = material_for(ideas_in(*name)); !material.empty())
             return material;
     }
     if (const std::string material = material_by_code(key.layer); !material.empty())

@@ -4,7 +4,7 @@
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
 #include "engine/base/toml.h"
-#include "materials/library/library_text.h"
+#include "materials/library_text.h"
 
 #include <cmath>
 #include <unordered_map>

@@ -32,9 +32,9 @@ struct Trans {
 };
 /// Boundary of a solid transparent body; the surface normal points out of the body.
 struct Dielectric {
-    Spectrum transmission_per_m; ///< fraction left after one metre inside, each channel in (0, 1]
+    Spectrum transmission_per_m; ///< fraction left after one metre inside, each channel in [0, 1]
     double index = 1.5;          ///< refractive index against the surroundings, > 0
-    double hartmann = 0;         ///< Hartmann's constant, index change with wavelength; kept, not modelled yet
+    double hartmann = 0;         ///< Hartmann's constant, nm: index + hartmann / 500 is used; colours are not spread
 };
 /// A thin pane, both surfaces and all internal reflections at once; light passes without bending.
 struct Glass {

@@ -16,6 +16,7 @@ constexpr int final_tile_size = 64;
 void write_exr(const Picture& picture, const std::filesystem::path& file)
 {
     check_picture(file.string(), picture);
+    check_exr_layout(file.string(), picture, final_tile_size);
     write_atomically(file, [&](const std::filesystem::path& temporary) {
         ExrWriter writer(temporary, picture, final_tile_size, false);
         for (int y = 0; y < picture.height; y += final_tile_size)

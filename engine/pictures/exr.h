@@ -27,7 +27,9 @@ public:
     std::size_t resumed_tiles() const noexcept;
     /// The tile at pixel (x, y) when an earlier run finished it.
     std::optional<Picture> stored(int x, int y) const;
-    /// Thread-safe.
+    /// Thread-safe. With the operating system when it returns, so a kill does not lose it; a tile that is already
+    /// there is kept.
+    /// @throws InputError: no place of a tile, wrong size or channels, disk full
     void put(int x, int y, const Picture& tile);
     /// Writes `complete` (all pixels, final header) under the final name and removes the partial file.
     void finish(const Picture& complete);

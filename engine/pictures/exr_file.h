@@ -10,13 +10,17 @@
 
 namespace lightwell {
 
+/// Checks what ExrWriter needs: tile size, names of channels and of header entries, colour entries.
+/// @throws InputError naming the entry
+void check_exr_layout(const std::string& place, const Picture& layout, int tile_size);
+
 /// Writes an OpenEXR file tile by tile: FLOAT, ZIP. What a call has written is with the operating system when the call
 /// returns, so that a killed program leaves a file with all tiles up to the last one.
 class ExrWriter {
 public:
-    /// @param layout     size, channel names and header
+    /// @param layout     size, channel names and header, checked by check_exr_layout()
     /// @param any_order  tiles come in any order; otherwise row by row from the top
-    /// @throws InputError: unusable layout or header; std::exception when the file cannot be written
+    /// @throws std::exception when the file cannot be written
     ExrWriter(const std::filesystem::path& file, const Picture& layout, int tile_size, bool any_order);
     /// Ends the file even when tiles are missing; errors are lost, so call close() where they matter.
     ~ExrWriter();

@@ -179,11 +179,18 @@ struct ExrWriter::State {
     std::optional<Imf::TiledOutputFile> output;
 };
 
-ExrWriter::ExrWriter(const std::filesystem::path& file, const Picture& layout, int tile_size, bool any_order)
+void check_exr_layout(const std::string& place, const Picture& layout, int tile_size)
 {
     constexpr int largest_tile = 4096;
     if (tile_size < 1 || tile_size > largest_tile)
-        throw InputError{file.string(), "tile size is " + std::to_string(tile_size) + ", expected 1 to 4096 pixels"};
+        throw InputError{place, "tile size is " + std::to_string(tile_size) + ", expected 1 to 4096 pixels"};
+    if (layout.channels.empty())
+        throw InputError{place, "picture to be written has no channel", "add at least one"};
+    header_of(layout, tile_size, false, place);
+}
+
+ExrWriter::ExrWriter(const std::filesystem::path& file, const Picture& layout, int tile_size, bool any_order)
+{
     state_ = std::make_unique<State>(file, header_of(layout, tile_size, any_order, file.string()));
 }
 

@@ -127,6 +127,7 @@ GrowingPicture::GrowingPicture(std::filesystem::path file, const Picture& layout
         state_->layout.channels[name];
     state_->tile_size = tile_size;
     check_layout_size(state_->file.string(), layout.width, layout.height);
+    check_exr_layout(state_->file.string(), layout, tile_size);
     state_->resumed = earlier_tiles(state_->partial, layout, tile_size);
     state_->start();
 }

@@ -129,18 +129,38 @@ SphericalTriangle::SphericalTriangle(const Point& from, const Point& a, const Po
     const Vec3 side_b = cross(to_a_, to_b_), side_c = cross(to_a_, to_c_);
     alpha_rad_ = std::atan2(length(cross(side_b, side_c)), dot(side_b, side_c));
     cos_side_c_ = clamped_unit(dot(to_a_, to_b_));
-    by_area_ = !(solid_angle_sr_ > smallest_spherical_sr && std::sin(alpha_rad_) > 1e-6 && cos_side_c_ < 1);
+    // The map divides by the square of this sine: below it, fewer than six digits would be left.
+    constexpr double in_plane_sine = 1e-5;
+    if (!(solid_angle_sr_ > smallest_spherical_sr))
+        way_ = Way::by_area;
+    else
+        way_ = std::sin(alpha_rad_) > in_plane_sine ? Way::by_solid_angle : Way::by_hemisphere;
 }
 
 SampledDirection SphericalTriangle::sample(UnitSquare u) const noexcept
 {
     if (!(solid_angle_sr_ > 0))
         return {};
-    if (by_area_) {
+    if (way_ == Way::by_area) {
         const Vec3& a = plane_.corner;
         const Direction direction = normalized(triangle_by_area(a, a + edge_b_, a + edge_c_, u));
         return {direction, density_per_sr(direction)};
     }
+    return way_ == Way::by_hemisphere ? sample_hemisphere(u) : sample_solid_angle(u);
+}
+
+SampledDirection SphericalTriangle::sample_hemisphere(UnitSquare u) const noexcept
+{
+    const double side = dot(plane_.normal, plane_.corner) < 0 ? -1 : 1;
+    const Direction direction = about_axis(normalized(plane_.normal * side), u.u, 2 * pi * u.v);
+    const double ab = dot(cross(to_a_, to_b_), direction), bc = dot(cross(to_b_, to_c_), direction),
+                 ca = dot(cross(to_c_, to_a_), direction);
+    const bool inside = ab * side >= 0 && bc * side >= 0 && ca * side >= 0;
+    return {direction, inside ? 1 / (2 * pi) : 0};
+}
+
+SampledDirection SphericalTriangle::sample_solid_angle(UnitSquare u) const noexcept
+{
     const double area = u.u * solid_angle_sr_;
     const double s = std::sin(area - alpha_rad_), t = std::cos(area - alpha_rad_);
     const double sin_alpha = std::sin(alpha_rad_), cos_alpha = std::cos(alpha_rad_);
@@ -160,7 +180,9 @@ double SphericalTriangle::density_per_sr(const Direction& direction) const noexc
 {
     if (!(solid_angle_sr_ > 0))
         return 0;
-    return by_area_ ? plane_.density_per_sr(direction, area_m2_) : 1 / solid_angle_sr_;
+    if (way_ == Way::by_area)
+        return plane_.density_per_sr(direction, area_m2_);
+    return way_ == Way::by_hemisphere ? 1 / (2 * pi) : 1 / solid_angle_sr_;
 }
 
 SphericalRectangle::SphericalRectangle(const Point& from, const Point& corner, const Vec3& edge_x,
@@ -176,7 +198,7 @@ SphericalRectangle::SphericalRectangle(const Point& from, const Point& corner, c
     const double squareness = std::fabs(dot(edge_x, edge_y));
     const double height = std::fabs(dot(plane_.normal, a));
     constexpr double right_angle_tolerance = 1e-9; // the map's relative error then stays below it
-    constexpr double edge_on_sine = 1e-6;          // below it the angles of the map cancel
+    constexpr double edge_on_sine = 1e-12;         // nearer to its plane the rectangle is a line
     if (!(solid_angle_sr_ > smallest_spherical_sr) || squareness > right_angle_tolerance * size_x * size_y ||
         !(height > edge_on_sine * area_m2_ * std::max(length(a), size_x + size_y)))
         return;

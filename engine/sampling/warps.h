@@ -63,7 +63,8 @@ struct SeenPlane {
 inline constexpr double smallest_spherical_sr = 1e-5;
 
 /// A triangle sampled uniformly in the solid angle it is seen in.
-/// Source  Arvo 1995, "Stratified Sampling of Spherical Triangles"; by area below smallest_spherical_sr
+/// Source  Arvo 1995, "Stratified Sampling of Spherical Triangles"; by area below
+///         smallest_spherical_sr; from a point nearly in its plane, by hemisphere, where what misses has density 0
 class SphericalTriangle {
 public:
     SphericalTriangle(const Point& from, const Point& a, const Point& b, const Point& c) noexcept;
@@ -73,6 +74,10 @@ public:
     double density_per_sr(const Direction& direction) const noexcept;
 
 private:
+    enum class Way { by_area, by_solid_angle, by_hemisphere };
+    SampledDirection sample_solid_angle(UnitSquare u) const noexcept;
+    SampledDirection sample_hemisphere(UnitSquare u) const noexcept;
+
     SeenPlane plane_;
     Vec3 edge_b_, edge_c_; ///< b - a, c - a
     Direction to_a_, to_b_, to_c_;
@@ -80,7 +85,7 @@ private:
     double area_m2_ = 0;
     double alpha_rad_ = 0;  ///< angle at a on the unit sphere
     double cos_side_c_ = 1; ///< cosine of the side a-b
-    bool by_area_ = true;
+    Way way_ = Way::by_area;
 };
 
 /// A rectangle sampled uniformly in the solid angle it is seen in.

@@ -28,6 +28,9 @@ struct SkyBrightness {
     double ground = 0;        ///< W/(m^2 sr), the ground plane
     double normalization = 1; ///< of the clear and the intermediate sky
     Direction to_sun{0, 0, 1};
+    /// The CIE formula down to the horizon. Else sky and ground blend over it, as `skybr` has it: that takes 0.2 to
+    /// 0.4 % of the horizontal illuminance.
+    bool sharp_horizon = false;
 };
 
 /// A named entry of the scene: a material, a pattern that scales the material below it, or a name for another entry.

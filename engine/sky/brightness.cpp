@@ -34,8 +34,10 @@ double intermediate_sky(double angle_to_sun_rad, double sun_from_zenith_rad, dou
 } // namespace
 
 double sky_brightness(int kind, double zenith, double ground, double normalization, const Direction& to_sun,
-                      const Direction& direction) noexcept
+                      const Direction& direction, bool sharp_horizon) noexcept
 {
+    if (sharp_horizon && direction.z < 0)
+        return ground;
     const double height = std::clamp(direction.z, -1.0, 1.0);
     double sky = zenith;
     if (kind == 1)
@@ -46,6 +48,8 @@ double sky_brightness(int kind, double zenith, double ground, double normalizati
         sky *= intermediate_sky(angle_between(direction, to_sun), std::acos(std::clamp(to_sun.z, -1.0, 1.0)),
                                 std::acos(height)) /
                normalization;
+    if (sharp_horizon)
+        return sky;
     // The tenth powers of height + 1.01 and of its inverse weigh sky and ground: half and half a hair below the
     // horizon, one or the other alone a few degrees away.
     const double above = std::pow(height + 1.01, 20);

@@ -56,10 +56,10 @@ struct SkyOptions {
 /// @throws InputError for turbidity below 1, a ground reflectance outside [0, 1], a direction that is not unit
 SkyModel make_sky(const SkyOptions& options, const Direction& to_sun);
 
-/// Radiance of the sky (z >= 0) or the ground in a direction, W/(m^2 sr), without the sun's disc; as skybright.cal:
-/// sky and ground blend over the horizon.
-/// @param kind  1 clear, 2 overcast, 3 uniform, 4 intermediate
+/// Radiance of the sky (z >= 0) or the ground in a direction, W/(m^2 sr), without the sun's disc.
+/// @param kind           1 clear, 2 overcast, 3 uniform, 4 intermediate
+/// @param sharp_horizon  the formula itself; else as skybright.cal has it: sky and ground blend over the horizon
 double sky_brightness(int kind, double zenith, double ground, double normalization, const Direction& to_sun,
-                      const Direction& direction) noexcept;
+                      const Direction& direction, bool sharp_horizon = false) noexcept;
 
 } // namespace lightwell

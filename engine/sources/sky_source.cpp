@@ -37,7 +37,7 @@ Spectrum distant_radiance(const Scene& scene, const DistantSource& source, Modif
         return radiance;
     const SkyBrightness& b = *resolved.brightness;
     return radiance *
-           sky_brightness(static_cast<int>(b.kind), b.zenith, b.ground, b.normalization, b.to_sun, direction);
+           sky_brightness(static_cast<int>(b.kind), b.zenith, b.ground, b.normalization, b.to_sun, direction, b.sharp_horizon);
 }
 
 SkySource::SkySource(const Scene& scene, std::vector<const Surface*> wide) : scene_(&scene), wide_(std::move(wide))

@@ -133,6 +133,11 @@ InsertFrame insert_frame(const Drawing& drawing, const Entity& insert)
     frame.columns = copies_along(fields.get(70, 1), fields.get(44));
     frame.rows = copies_along(fields.get(71, 1), fields.get(45));
     frame.largest_scale = max_abs(scale);
+    if (!std::isnormal(frame.first.determinant()))
+        throw InputError{
+            drawing.place(insert),
+            fmt::format("scale is {} x {} x {}, expected numbers whose product is not 0", scale.x, scale.y, scale.z),
+            "correct the scale"};
     if (static_cast<double>(frame.columns) * frame.rows > most_copies)
         throw InputError{drawing.place(insert),
                          fmt::format("array of {} x {} copies, expected at most {} together", fields.get(70),

@@ -13,6 +13,8 @@ namespace lightwell::dxf {
 namespace {
 
 constexpr SkipReason made{"made"};
+/// A facet takes some 200 bytes: a gigabyte. Only a damaged radius or a tolerance without sense needs more.
+constexpr std::size_t most_facets = 5'000'000;
 constexpr SkipReason empty_block{"its block has no surfaces"};
 
 /// A block that has become a prototype, and the classes of its surfaces that wait for an insert.
@@ -216,6 +218,11 @@ void SceneBuilder::count_deviations(const Target& target, const Entity& entity)
     if (found.split_quads > 0 && deviations_.split_quads == 0)
         deviations_.first_quad = drawing_.place(entity);
     deviations_.chords += found.chords;
+    if (deviations_.chords > most_facets)
+        throw InputError{
+            drawing_.place(entity),
+            fmt::format("arcs need more than {} facets at a chord tolerance of {} m", most_facets, chord_tolerance_m_),
+            "allow a larger tolerance or correct the radius"};
     deviations_.split_quads += found.split_quads;
     deviations_.chord_error_m = std::fmax(deviations_.chord_error_m, found.chord_error * metres);
     deviations_.out_of_plane_m = std::fmax(deviations_.out_of_plane_m, found.out_of_plane * metres);

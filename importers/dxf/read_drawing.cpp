@@ -137,8 +137,10 @@ void DrawingReader::read_section()
             report_.add(Finding::repaired, tags_.place(tag_.place), "one more section ENTITIES; all are read");
         drawing_.model.push_back(read_entities("ENDSEC"));
     }
-    while (!is(0, "ENDSEC"))
-        advance("section " + name);
+    for (; !is(0, "ENDSEC"); advance("section " + name))
+        if (is(0, "SPATIAL_FILTER"))
+            report_.add(Finding::unsupported, tags_.place(tag_.place),
+                        "an insert is clipped (XCLIP); the whole block is shown");
 }
 
 void DrawingReader::read_header()

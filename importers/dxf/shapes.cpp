@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <unordered_map>
 
 namespace lightwell::dxf {
 namespace {
@@ -108,69 +107,6 @@ Reason add_polyline(const Drawing& drawing, const Entity& entity, double chord_t
     if (flags & in_space)
         return &thin;
     return add_flat_polyline(drawing.values_of(entity), chord_tolerance, shapes);
-}
-
-/// Why entities of a type that is not understood are left out.
-Reason reason_of_type(const std::string& type)
-{
-    static constexpr SkipReason annotation{"annotation"}, curve{"a curve without thickness has no area"},
-        solid{"solids and surfaces in ACIS form are not modelled; explode them to faces", true},
-        hatch{"hatches are not modelled", true}, mesh{"subdivision meshes are not modelled", true},
-        picture{"pictures and embedded objects are not modelled", true},
-        light{"lights of the drawing are not modelled", true},
-        foreign{"objects of other applications are not modelled", true}, vertex{"vertex without a polyline", true},
-        unknown{"not a known entity type", true};
-    static const std::unordered_map<std::string, Reason> reasons{
-        {"TEXT", &annotation},
-        {"MTEXT", &annotation},
-        {"RTEXT", &annotation},
-        {"ARCALIGNEDTEXT", &annotation},
-        {"ATTDEF", &annotation},
-        {"ATTRIB", &annotation},
-        {"DIMENSION", &annotation},
-        {"ARC_DIMENSION", &annotation},
-        {"LARGE_RADIAL_DIMENSION", &annotation},
-        {"LEADER", &annotation},
-        {"MLEADER", &annotation},
-        {"MULTILEADER", &annotation},
-        {"TOLERANCE", &annotation},
-        {"SHAPE", &annotation},
-        {"ACAD_TABLE", &annotation},
-        {"VIEWPORT", &annotation},
-        {"POINT", &curve},
-        {"RAY", &curve},
-        {"XLINE", &curve},
-        {"MLINE", &curve},
-        {"SPLINE", &curve},
-        {"ELLIPSE", &curve},
-        {"HELIX", &curve},
-        {"HATCH", &hatch},
-        {"MPOLYGON", &hatch},
-        {"MESH", &mesh},
-        {"3DSOLID", &solid},
-        {"REGION", &solid},
-        {"BODY", &solid},
-        {"SURFACE", &solid},
-        {"EXTRUDEDSURFACE", &solid},
-        {"LOFTEDSURFACE", &solid},
-        {"REVOLVEDSURFACE", &solid},
-        {"SWEPTSURFACE", &solid},
-        {"PLANESURFACE", &solid},
-        {"NURBSURFACE", &solid},
-        {"IMAGE", &picture},
-        {"WIPEOUT", &picture},
-        {"OLEFRAME", &picture},
-        {"OLE2FRAME", &picture},
-        {"PDFUNDERLAY", &picture},
-        {"DWFUNDERLAY", &picture},
-        {"DGNUNDERLAY", &picture},
-        {"LIGHT", &light},
-        {"SUN", &light},
-        {"ACAD_PROXY_ENTITY", &foreign},
-        {"VERTEX", &vertex},
-    };
-    const auto found = reasons.find(type);
-    return found == reasons.end() ? &unknown : found->second;
 }
 
 } // namespace

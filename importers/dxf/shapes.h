@@ -64,6 +64,9 @@ using Reason = const SkipReason*;
 inline constexpr SkipReason no_area{"it has no area"};
 inline constexpr SkipReason thin{"no thickness and no width: a line has no area"};
 
+/// Why entities of a type that is not understood are left out.
+Reason reason_of_type(const std::string& type);
+
 /// The numbers of one entity by group code.
 class Fields {
 public:

@@ -6,6 +6,7 @@
 #include "importers/gltf/gltf_primitive.h"
 #include "importers/gltf/gltf_views.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -14,6 +15,11 @@ namespace {
 
 /// A map that flattens space below this share of its own size cannot be turned back, as an instance must be.
 constexpr double singular_tolerance = 1e-12;
+
+/// A file may read each of its bytes so often, by primitives that share accessors, before it counts as a trap.
+constexpr std::size_t most_readings = 100;
+/// Small files may share more.
+constexpr std::size_t free_readings = 10'000'000;
 
 /// One place where a mesh stands.
 struct Use {
@@ -44,6 +50,7 @@ private:
     std::vector<Affine> copies_of(const GltfNode& node);
     void build_mesh(int mesh, const std::vector<Use>& uses);
     std::vector<Loaded> load(int mesh, const Use& first);
+    void count_reading(int accessor);
     void place_once(const std::vector<Loaded>& parts, int mesh, const Use& use);
     void place_copies(const std::vector<Loaded>& parts, int mesh, const std::vector<Use>& uses);
     SurfaceKey key_of(const GltfPrimitive& primitive, int mesh, int node) const;
@@ -58,6 +65,7 @@ private:
     std::vector<std::string> paths_;
     std::map<int, std::vector<Use>> uses_; ///< by mesh
     std::string first_fault_;
+    std::size_t bytes_ = 0, readings_ = 0;
     std::size_t without_area_ = 0, skinned_ = 0, morphed_ = 0;
 };
 
@@ -67,6 +75,12 @@ std::string name_or_number(const std::string& name, const char* kind, std::size_
         return name;
     std::string made = kind;
     return made.append(std::to_string(number));
+}
+
+int position_of(const GltfPrimitive& primitive)
+{
+    const auto found = primitive.attributes.find("POSITION");
+    return found == primitive.attributes.end() ? -1 : found->second;
 }
 
 /// Twice the same parent, or a circle, would be walked for ever or exponentially often.
@@ -173,6 +187,7 @@ std::vector<Affine> GltfBuilder::copies_of(const GltfNode& node)
         const auto found = node.instancing.find(names[i].first);
         if (found == node.instancing.end())
             continue;
+        count_reading(found->second);
         values[i] = read_numbers(document_, found->second, names[i].second);
         const std::size_t copies = values[i].size() / static_cast<std::size_t>(names[i].second);
         if (count > 0 && copies != count)
@@ -223,6 +238,19 @@ SurfaceKey GltfBuilder::key_of(const GltfPrimitive& primitive, int mesh, int nod
     return key;
 }
 
+/// Thousands of primitives or copies that share one large accessor would take for ever and all memory.
+void GltfBuilder::count_reading(int accessor)
+{
+    if (accessor < 0 || static_cast<std::size_t>(accessor) >= document_.accessors.size())
+        return;
+    readings_ += std::min(document_.accessors[static_cast<std::size_t>(accessor)].count, free_readings + bytes_);
+    if (readings_ > free_readings + most_readings * bytes_)
+        throw InputError(document_.name,
+                         "its parts repeat the same accessors until " + std::to_string(readings_) +
+                             " elements are read from " + std::to_string(bytes_) + " bytes",
+                         "let nodes share the mesh instead");
+}
+
 std::vector<Loaded> GltfBuilder::load(int index, const Use& first)
 {
     static constexpr const char* kinds[] = {"point", "line", "line", "line"};
@@ -237,6 +265,8 @@ std::vector<Loaded> GltfBuilder::load(int index, const Use& first)
             imported_.ledger.skipped(kind, layer, std::string("a ") + kind + " has no area");
             continue;
         }
+        count_reading(position_of(primitive));
+        count_reading(primitive.indices);
         try {
             if (primitive.mode < 0 || primitive.mode > 6)
                 throw InputError(document_.name,
@@ -358,6 +388,8 @@ void GltfBuilder::build()
 {
     parents_ = parents_of(document_);
     paths_.resize(document_.nodes.size());
+    for (const GltfView& view : document_.views)
+        bytes_ += view.bytes.size();
     walk();
     for (const auto& [mesh, uses] : uses_)
         build_mesh(mesh, uses);

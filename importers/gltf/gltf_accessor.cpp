@@ -9,7 +9,7 @@ namespace lightwell {
 namespace {
 
 /// An accessor without bytes is all zeros; so many of them are believed.
-constexpr std::size_t most_zeros = 1u << 26;
+constexpr std::size_t most_zeros = 1u << 20;
 
 std::size_t bytes_of(int component_type)
 {

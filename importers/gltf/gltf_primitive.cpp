@@ -4,8 +4,8 @@
 #include "importers/gltf/gltf_accessor.h"
 #include "importers/gltf/gltf_codecs.h"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lightwell {
 namespace {
@@ -103,21 +103,50 @@ Vec3 vector_at(const std::vector<double>& numbers, std::size_t index)
     return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
 }
 
-/// Keeps triangles that have an area; @return how many were dropped.
-std::size_t drop_flat_triangles(Mesh& mesh)
+/// The corners of triangles that have an area.
+/// @throws InputError when a corner is not at a finite place
+std::vector<std::uint32_t> with_area(const std::vector<double>& positions, const std::vector<std::uint32_t>& corners,
+                                     const std::string& place)
 {
     std::vector<std::uint32_t> kept;
-    kept.reserve(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        const Point &a = mesh.points[mesh.triangles[i]], &b = mesh.points[mesh.triangles[i + 1]],
-                    &c = mesh.points[mesh.triangles[i + 2]];
+    kept.reserve(corners.size());
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        const Point a = vector_at(positions, corners[i]), b = vector_at(positions, corners[i + 1]),
+                    c = vector_at(positions, corners[i + 2]);
+        if (!is_finite(a) || !is_finite(b) || !is_finite(c))
+            throw InputError(place, "coordinates of triangle " + std::to_string(i / 3) + " are not finite");
         const double longest = std::fmax(length(b - a), std::fmax(length(c - b), length(a - c)));
         if (length(cross(b - a, c - a)) > zero_area_tolerance * longest * longest)
-            kept.insert(kept.end(), {mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+            kept.insert(kept.end(), {corners[i], corners[i + 1], corners[i + 2]});
     }
-    const std::size_t dropped = (mesh.triangles.size() - kept.size()) / 3;
-    mesh.triangles = std::move(kept);
-    return dropped;
+    return kept;
+}
+
+/// The triangles with the points they use and no others: primitives often share one long list of vertices.
+Mesh compact_mesh(const Source& source, const std::vector<std::uint32_t>& corners)
+{
+    constexpr std::uint32_t not_yet = std::numeric_limits<std::uint32_t>::max();
+    const std::size_t count = source.positions.size() / 3;
+    const bool with_normals = source.normals.size() == 3 * count, with_texture = source.texture.size() == 2 * count;
+    Mesh mesh;
+    std::vector<std::uint32_t> place(count, not_yet);
+    mesh.triangles.reserve(corners.size());
+    for (const std::uint32_t corner : corners) {
+        if (place[corner] == not_yet) {
+            place[corner] = static_cast<std::uint32_t>(mesh.points.size());
+            mesh.points.push_back(vector_at(source.positions, corner));
+            if (with_normals) {
+                const Vec3 normal = vector_at(source.normals, corner);
+                mesh.normals.push_back(is_finite(normal) ? normalized(normal) : Vec3{});
+            }
+            for (std::size_t i = 0; with_texture && i < 2; ++i) {
+                const double value = source.texture[2 * std::size_t{corner} + i];
+                mesh.texture.push_back(std::isfinite(value) ? value : 0);
+            }
+        }
+        mesh.triangles.push_back(place[corner]);
+    }
+    return mesh;
 }
 
 /// Normals that only repeat the planes of the triangles say nothing; missing ones take the plane of a triangle.
@@ -143,33 +172,19 @@ void settle_normals(Mesh& mesh)
 
 GltfTriangles read_triangles(const GltfDocument& document, const GltfPrimitive& primitive)
 {
-    Source source = primitive.draco ? from_draco(document, primitive) : from_accessors(document, primitive);
+    const Source source = primitive.draco ? from_draco(document, primitive) : from_accessors(document, primitive);
     const std::size_t count = source.positions.size() / 3;
     for (const std::uint32_t corner : source.corners)
         if (corner >= count)
             throw InputError(document.name + ": accessor " + std::to_string(primitive.indices),
                              "index " + std::to_string(corner) + " of " + std::to_string(count) + " vertices");
     GltfTriangles result;
-    Mesh& mesh = result.mesh;
-    mesh.points.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        mesh.points.push_back(vector_at(source.positions, i));
-        if (!is_finite(mesh.points.back()))
-            throw InputError(document.name, "coordinates of vertex " + std::to_string(i) + " are not finite");
-    }
-    mesh.triangles = unrolled(source.corners, primitive.draco ? 4 : primitive.mode);
-    result.without_area = drop_flat_triangles(mesh);
-    if (!source.normals.empty() && source.normals.size() == source.positions.size()) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3 normal = vector_at(source.normals, i);
-            mesh.normals.push_back(is_finite(normal) ? normalized(normal) : Vec3{});
-        }
-        settle_normals(mesh);
-    }
-    const bool usable =
-        std::all_of(source.texture.begin(), source.texture.end(), [](double x) { return std::isfinite(x); });
-    if (usable && source.texture.size() == 2 * count)
-        mesh.texture = std::move(source.texture);
+    const std::vector<std::uint32_t> corners = unrolled(source.corners, primitive.draco ? 4 : primitive.mode);
+    const std::vector<std::uint32_t> kept = with_area(source.positions, corners, document.name);
+    result.without_area = (corners.size() - kept.size()) / 3;
+    result.mesh = compact_mesh(source, kept);
+    if (!result.mesh.normals.empty())
+        settle_normals(result.mesh);
     return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -106,10 +107,18 @@ ObjBuilder::ObjBuilder(const ObjFile& file, const Affine& to_metres, const std::
 void ObjBuilder::build()
 {
     imported_.scene.root.surfaces.reserve(file_.faces.size());
-    for (const ObjFace& face : file_.faces)
+    std::vector<std::size_t> made_in_state(file_.states.size());
+    for (const ObjFace& face : file_.faces) {
+        const std::size_t before = imported_.ledger.made_count();
         add_face(face);
+        made_in_state[face.state] += imported_.ledger.made_count() - before;
+    }
     finish_meshes(smooth_meshes_);
     finish_meshes(flat_meshes_);
+    imported_.made_with_key.assign(imported_.keys.size(), 0);
+    for (std::size_t state = 0; state < made_in_state.size(); ++state)
+        if (modifiers_[state])
+            imported_.made_with_key[static_cast<std::size_t>(*modifiers_[state])] += made_in_state[state];
     write_notes();
 }
 
@@ -148,13 +157,13 @@ void ObjBuilder::take_outline(const ObjFace& face)
 void ObjBuilder::add_face(const ObjFace& face)
 {
     take_outline(face);
-    const bool enough = outline_.points.size() >= 3;
-    if (enough && outline_.has_area() && !smooth(face) && outline_.planar()) {
+    const bool enough = outline_.points.size() >= 3, has_area = enough && outline_.has_area();
+    const bool with_normals = has_area && smooth(face);
+    if (has_area && !with_normals && outline_.planar()) {
         imported_.scene.root.add_polygon(outline_.points, modifier_of(face.state), face_name(face.number));
         imported_.ledger.made();
         return;
     }
-    const bool with_normals = enough && outline_.has_area() && smooth(face);
     const std::size_t before = imported_.ledger.made_count();
     if (enough)
         add_to_mesh(with_normals ? smooth_meshes_ : flat_meshes_, face, with_normals);
@@ -162,7 +171,7 @@ void ObjBuilder::add_face(const ObjFace& face)
         imported_.ledger.skipped("face", layer_of(file_.states[face.state]), "zero area");
         return;
     }
-    if (!outline_.has_area())
+    if (!has_area)
         crossing_.add(face.line);
     else if (!outline_.planar())
         warped_.add(face.line);
@@ -211,9 +220,11 @@ std::uint32_t ObjBuilder::mesh_point(MeshInProgress& target, std::size_t corner,
 void ObjBuilder::add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& meshes, const ObjFace& face,
                              bool with_normals)
 {
+    constexpr std::uint32_t not_yet = std::numeric_limits<std::uint32_t>::max();
     const double least_area_m2 = zero_area_tolerance * outline_.diameter_m * outline_.diameter_m;
-    const std::vector<std::uint32_t> triangles = triangulate(outline_.points);
+    std::vector<std::uint32_t> mesh_points(outline_.points.size(), not_yet);
     bool any = false;
+    const std::vector<std::uint32_t> triangles = triangulate(outline_.points);
     for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
         const Point& a = outline_.points[triangles[i]];
         const Vec3 twice_area = cross(outline_.points[triangles[i + 1]] - a, outline_.points[triangles[i + 2]] - a);
@@ -222,8 +233,12 @@ void ObjBuilder::add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& 
         const auto [entry, fresh] = meshes.try_emplace(face.state);
         if (fresh)
             entry->second.first_face = face.number;
-        for (std::size_t k = 0; k < 3; ++k)
-            entry->second.mesh.triangles.push_back(mesh_point(entry->second, triangles[i + k], with_normals));
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint32_t& point = mesh_points[triangles[i + k]];
+            if (point == not_yet)
+                point = mesh_point(entry->second, triangles[i + k], with_normals);
+            entry->second.mesh.triangles.push_back(point);
+        }
         any = true;
     }
     imported_.ledger.made(any ? 1 : 0);

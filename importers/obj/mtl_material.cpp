@@ -25,11 +25,14 @@ Spectrum within_unit(Spectrum colour, const std::string& what, const std::string
     return result;
 }
 
+/// In the engine's primaries; a saturated colour that lies a little outside them is brought to their edge.
 Spectrum unit_colour(const std::optional<Spectrum>& rec709, const std::string& what, const std::string& place,
                      Report& report)
 {
-    return rec709 ? within_unit(from_rec709(within_unit(*rec709, what, place, report)), what, place, report)
-                  : Spectrum{};
+    if (!rec709)
+        return {};
+    const Spectrum engine = from_rec709(within_unit(*rec709, what, place, report));
+    return {std::clamp(engine.r, 0.0, 1.0), std::clamp(engine.g, 0.0, 1.0), std::clamp(engine.b, 0.0, 1.0)};
 }
 
 /// Rms slope of the facets: Pr squared (the usual perceptual scale), or the slope of Beckmann facets whose lobe is

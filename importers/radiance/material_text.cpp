@@ -219,6 +219,8 @@ void append_material(std::string& text, const std::string& modifier, const std::
 void append_sky_brightness(std::string& text, const std::string& modifier, const std::string& name,
                            const SkyBrightness& sky)
 {
+    if (sky.sharp_horizon)
+        text += sharp_horizon_comment + '\n';
     append_head(text, modifier, "brightfunc", name);
     text += "2 skybr skybright.cal\n0\n";
     const Direction& sun = sky.to_sun;

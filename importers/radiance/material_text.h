@@ -21,6 +21,9 @@ std::optional<SkyBrightness> sky_brightness_of(const Primitive& primitive, const
 /// `TYPE NAME` and its arguments, as four lines.
 /// @param modifier, name  words, already encoded
 void append_material(std::string& text, const std::string& modifier, const std::string& name, const Material& material);
+/// Before a sky's brightness function that follows the CIE formula down to the horizon; other programs skip it and
+/// blend sky and ground.
+inline const std::string sharp_horizon_comment = "#@horizon sharp";
 void append_sky_brightness(std::string& text, const std::string& modifier, const std::string& name,
                            const SkyBrightness& sky);
 

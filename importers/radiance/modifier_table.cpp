@@ -40,6 +40,7 @@ public:
         number(s.ground);
         number(s.normalization);
         vector(s.to_sun);
+        number(s.sharp_horizon);
     }
     void operator()(const Material& m)
     {

@@ -27,8 +27,7 @@ void SceneReader::run(OpenFile& file, const std::string& command, const std::str
     const std::string_view program = trimmed(command).substr(0, trimmed(command).find_first_of(" \t"));
     if (program != "xform")
         throw InputError{place + ": !" + std::string(program), "commands other than xform are not run",
-                         fmt::format("write its output to a file (`{}` > NAME.rad) and put `!xform NAME.rad` here",
-                                     trimmed(command).substr(0, 60))};
+                         "run it yourself, write its output to NAME.rad and put `!xform NAME.rad` in its place"};
     const std::string at = place + ": !xform";
     const std::vector<std::string> words = command_words(command, at);
     for (const Xform& xform : parse_xform({words.begin() + 1, words.end()}, file, at))
@@ -98,7 +97,7 @@ void SceneReader::include(const Xform& xform, OpenFile& file, const std::string&
 {
     if (xform.plain) {
         for (const std::filesystem::path& path : xform.files)
-            read_file(path, &file, place, target);
+            read_file(path, &file, place, {target.part, target.scope, target.first_file, false});
         return;
     }
     std::optional<ModifierId> modifier;

@@ -3,6 +3,7 @@
 #include "importers/radiance/scene_reader.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace lightwell::scene_text {
 
@@ -23,7 +24,7 @@ Meaning SceneReader::meaning_of(OpenFile& file, const Primitive& primitive, std:
     if (!meaning)
         throw InputError{file.words.place(primitive), fmt::format("modifier \"{}\" is not defined above", decoded),
                          parse_double(name) ? "check the counts of the primitive before it"
-                                            : "define it first, or include the file that does"};
+                                            : "define it first, or include the file that does: `!xform FILE`"};
     return *meaning;
 }
 
@@ -56,7 +57,8 @@ void SceneReader::define_pattern(OpenFile& file, const Primitive& primitive, con
     const std::string place = file.words.place(primitive);
     std::string name = decoded_name(primitive.name);
     Meaning meaning = parent;
-    if (const auto sky = sky_brightness_of(primitive, place)) {
+    if (auto sky = sky_brightness_of(primitive, place)) {
+        sky->sharp_horizon = std::exchange(file.sharp_horizon, false);
         if (parent.problem < 0)
             meaning.id = table_.add({name, *sky, parent.id});
     } else {

@@ -85,8 +85,13 @@ void SceneReader::add_instance(OpenFile& file, const Primitive& primitive, Targe
         throw InputError{place, "no file name", "an instance has the words FILE and a transform"};
     const Meaning meaning = meaning_of(file, primitive, primitive.modifier, target);
     const Affine map = only_placement(primitive, place);
-    const std::string name(primitive.words[0]);
-    std::uint32_t prototype = prototype_of_file(find(name, file, place), file, place);
+    const std::string_view name = primitive.words[0];
+    auto known = file.instances.find(name);
+    if (known == file.instances.end()) {
+        const std::uint32_t fresh = prototype_of_file(find(std::string(name), file, place), file, place);
+        known = file.instances.emplace(name, fresh).first;
+    }
+    std::uint32_t prototype = known->second;
     if (const ModifierId modifier = usable(file, primitive, meaning); modifier != void_modifier)
         prototype = with_modifier(prototype, modifier);
     target.part.add_instance({prototype, map, {}}, decoded_name(primitive.name));

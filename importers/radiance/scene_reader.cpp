@@ -134,13 +134,15 @@ void SceneReader::read_comment(OpenFile& file, std::string_view comment, Target 
         return;
     const std::vector<std::string_view> fields = split(comment, " \t");
     const std::string place = file.words.place(file.words.offset());
-    if (fields[0] == "#@from" && fields.size() == 2) {
+    if (fields[0] == "#@from" && fields.size() == 2 && target.own_part) {
         target.part.name = decoded_name(fields[1]);
     } else if (fields[0] == "#@view" && fields.size() >= 2 && target.first_file) {
         const char* const words = fields[1].data() + fields[1].size();
         View view = parse_view(std::string(words, comment.data() + comment.size()), place);
         view.name = decoded_name(fields[1]);
         scene_.views.push_back(std::move(view));
+    } else if (trimmed(comment) == sharp_horizon_comment) {
+        file.sharp_horizon = true;
     } else if (fields[0].starts_with("#@grid") && target.first_file) {
         read_grid(place, fields);
     }

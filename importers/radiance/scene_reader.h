@@ -26,12 +26,16 @@ private:
         std::string last_modifier = {}; ///< consecutive surfaces mostly share theirs
         Meaning last_meaning = {};
         bool last_known = false;
+        bool sharp_horizon = false; ///< of the next sky
+        /// Prototypes of the files that its instances name: spares the search for each of a million instances.
+        std::unordered_map<std::string, std::uint32_t, NameHash, std::equal_to<>> instances = {};
     };
     /// Where primitives go: the part that is being filled and the names that are known.
     struct Target {
         Part& part;
         Scope& scope;
         bool first_file = false; ///< views and grids count
+        bool own_part = true;    ///< the part is this file's, which may say what it is called
     };
     /// Files included with a transform, read once in their own frame and then placed again and again.
     struct Fragment {

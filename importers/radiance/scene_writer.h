@@ -43,6 +43,8 @@ private:
     struct Output {
         TextFile file;
         std::map<std::string, ModifierId> defined = {};
+        ModifierId last = void_modifier; ///< consecutive surfaces mostly share theirs
+        std::string last_word = "void";
         std::set<ModifierId> busy = {}; ///< being defined: stops circles of `illum` alternates
     };
     /// Where the surfaces of a part go.
@@ -69,7 +71,7 @@ private:
     void write_triangles(Output& out, const Mesh& mesh, ModifierId modifier, const std::string& name,
                          const Affine& map);
     /// Makes sure that the modifier's name means it from here on, and returns the word for it.
-    std::string use(Output& out, ModifierId id);
+    const std::string& use(Output& out, ModifierId id);
     void define(Output& out, ModifierId id);
 
     Bindings effective_bindings(std::uint32_t prototype, const Bindings& own, const Bindings& outer) const;

@@ -25,15 +25,20 @@ void append_reference(std::string& text, const std::string& file, const std::vec
 
 } // namespace
 
-std::string SceneWriter::use(Output& out, ModifierId id)
+const std::string& SceneWriter::use(Output& out, ModifierId id)
 {
-    if (id == void_modifier)
-        return "void";
-    const std::string& name = changed_.modifiers[static_cast<std::size_t>(id)].name;
-    const auto known = out.defined.find(name);
-    if (known == out.defined.end() || known->second != id)
-        define(out, id);
-    return encoded_name(changed_.modifiers[static_cast<std::size_t>(id)].name);
+    if (id == out.last)
+        return out.last_word;
+    std::string word = "void";
+    if (id != void_modifier) {
+        const std::string& name = changed_.modifiers[static_cast<std::size_t>(id)].name;
+        const auto known = out.defined.find(name);
+        if (known == out.defined.end() || known->second != id)
+            define(out, id);
+        word = encoded_name(name);
+    }
+    out.last = id;
+    return out.last_word = std::move(word);
 }
 
 void SceneWriter::define(Output& out, ModifierId id)
@@ -45,9 +50,11 @@ void SceneWriter::define(Output& out, ModifierId id)
     if (const auto* material = std::get_if<Material>(&modifier.what)) {
         if (const auto* illum = std::get_if<Illum>(material); illum != nullptr && !illum->alternate.empty())
             use(out, changed_.find_modifier(illum->alternate));
-        append_material(out.file.text(), use(out, modifier.parent), name, *material);
+        const std::string parent = use(out, modifier.parent);
+        append_material(out.file.text(), parent, name, *material);
     } else if (const auto* sky = std::get_if<SkyBrightness>(&modifier.what)) {
-        append_sky_brightness(out.file.text(), use(out, modifier.parent), name, *sky);
+        const std::string parent = use(out, modifier.parent);
+        append_sky_brightness(out.file.text(), parent, name, *sky);
     } else {
         // A place-holder that nothing stands in for is invisible, as `void` is.
         const auto* alias = std::get_if<Alias>(&modifier.what);

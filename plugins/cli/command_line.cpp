@@ -52,6 +52,7 @@ Status parse_and_run(const std::vector<std::string>& arguments)
     add_materials(app, status);
     add_render(app, status);
     add_illuminance(app, status);
+    add_run(app, status);
     std::vector<std::string> words = join_values(arguments);
     std::reverse(words.begin(), words.end()); // CLI11 takes its words from the back
     try {

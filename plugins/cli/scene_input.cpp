@@ -7,6 +7,7 @@
 #include "importers/formats/formats.h"
 #include "importers/layers.h"
 #include "importers/radiance/radiance.h"
+#include "plugins/cli/merge_scenes.h"
 
 #include <algorithm>
 
@@ -22,55 +23,78 @@ std::string names_of(const std::vector<Named>& list)
     return names;
 }
 
-void require_light(const Scene& scene, const std::string& file)
+void require_light(const Scene& scene, const std::string& files)
 {
     const bool emits = std::any_of(scene.modifiers.begin(), scene.modifiers.end(), [](const Modifier& modifier) {
         const auto* material = std::get_if<Material>(&modifier.what);
         return material != nullptr && is_emitter(*material) && !emitted_radiance(*material).is_black();
     });
     if (!emits)
-        throw InputError(file, "nothing in the scene emits light",
-                         "add --sky clear --place LAT,LON --time ISO, or map a layer to an emitting material");
+        throw InputError(files, "nothing in the scene emits light",
+                         "add a sky with its place and time, or map a layer to an emitting material");
 }
 
-Scene read_cad(const SceneWords& words, LitScene& lit)
+/// The CAD files among the inputs, under one layer map.
+void add_drawings(const SceneInputs& inputs, LitScene& lit)
 {
-    Imported imported = import_file(words.file, import_options(words.import));
-    apply_layer_map(imported, words.map.empty() ? LayerMap{} : read_layer_map(words.map));
-    lit.report.add(imported.report);
-    lit.provenance["unit"] = imported.unit;
-    return std::move(imported.scene);
+    Imported all;
+    bool any = false;
+    for (const std::filesystem::path& file : inputs.files) {
+        if (is_scene_text(file))
+            continue;
+        Imported imported = import_file(file, inputs.import);
+        if (any)
+            append_import(all, imported);
+        else
+            all = std::move(imported);
+        any = true;
+    }
+    if (!any && !inputs.map.empty())
+        throw InputError(inputs.map.string(), "a layer map without a CAD file",
+                         "layers of a scene description have their materials already: leave the map out");
+    if (!any)
+        return;
+    apply_layer_map(all, inputs.map.empty() ? LayerMap{} : read_layer_map(inputs.map));
+    lit.report.add(all.report);
+    lit.provenance["unit"] = all.unit;
+    lit.scene = std::move(all.scene);
 }
 
 } // namespace
 
-bool is_scene_text(const std::string& file)
+bool is_scene_text(const std::filesystem::path& file)
 {
-    const std::string extension = lowercase_ascii(std::filesystem::path(file).extension().string());
+    const std::string extension = lowercase_ascii(file.extension().string());
     return extension == ".rad" || extension == ".mat";
+}
+
+LitScene light_scene(const SceneInputs& inputs)
+{
+    LitScene lit;
+    add_drawings(inputs, lit);
+    std::string files;
+    for (const std::filesystem::path& file : inputs.files) {
+        if (is_scene_text(file))
+            append_scene(lit.scene, read_radiance(file, lit.report));
+        files += (files.empty() ? "" : ", ") + file.string();
+    }
+    lit.provenance["scene"] = files;
+    if (!inputs.map.empty())
+        lit.provenance["map"] = inputs.map.string();
+    if (inputs.sky) {
+        add_sky(lit.scene, inputs.sky->model);
+        lit.provenance["sky"] = inputs.sky->description;
+    }
+    require_light(lit.scene, files);
+    return lit;
 }
 
 LitScene load_scene(const SceneWords& words)
 {
-    LitScene lit;
-    if (is_scene_text(words.file)) {
-        if (!words.map.empty())
-            throw InputError("--map", "\"" + words.file + "\" is a scene description, whose layers have materials",
-                             "leave --map out, or give the CAD file");
-        lit.scene = read_radiance(words.file, lit.report);
-    } else {
-        lit.scene = read_cad(words, lit);
-    }
-    lit.provenance["scene"] = words.file;
-    if (!words.map.empty())
-        lit.provenance["map"] = words.map;
-    if (!words.sky.type.empty()) {
-        const DescribedSky sky = sky_of(words.sky);
-        add_sky(lit.scene, sky.model);
-        lit.provenance["sky"] = sky.description;
-    }
-    require_light(lit.scene, words.file);
-    return lit;
+    SceneInputs inputs{{words.file}, words.map, import_options(words.import), std::nullopt};
+    if (!words.sky.type.empty())
+        inputs.sky = sky_of(words.sky); // before the file is read: a wrong word should not take a minute to show
+    return light_scene(inputs);
 }
 
 View choose_view(const std::string& text, const Scene& scene)

@@ -4,8 +4,11 @@
 #include "plugins/cli/options.h"
 #include "plugins/cli/sky_words.h"
 
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace lightwell {
 
@@ -16,17 +19,26 @@ struct SceneWords {
     SkyWords sky;
 };
 
+/// The same for any number of files, as a project has them.
+struct SceneInputs {
+    std::vector<std::filesystem::path> files;
+    std::filesystem::path map;
+    ImportOptions import;
+    std::optional<DescribedSky> sky;
+};
+
 struct LitScene {
     Scene scene;
     Report report;
-    std::map<std::string, std::string> provenance; ///< scene, map, sky: for the header of results
+    std::map<std::string, std::string> provenance; ///< scene, map, unit, sky: for the header of results
 };
 /// Reads, maps and completes the scene; prints nothing.
 /// @throws InputError also when nothing in the scene emits light
+LitScene light_scene(const SceneInputs& inputs);
 LitScene load_scene(const SceneWords& words);
 
 /// True for `.rad` and `.mat`: read as scene description, everything else by the importers.
-bool is_scene_text(const std::string& file);
+bool is_scene_text(const std::filesystem::path& file);
 
 /// A view by its name in the scene, a file of view words, or the words themselves.
 /// @throws InputError that lists the scene's views

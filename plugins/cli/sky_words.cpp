@@ -2,10 +2,11 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
+#include "importers/project/date_time.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <cmath>
 #include <cstdio>
 
 namespace lightwell {
@@ -33,27 +34,15 @@ std::string tenths(double value)
     return text;
 }
 
-[[noreturn]] void bad_time(const std::string& text)
+/// "2026-03-21T12:00+01:00", to the minute.
+std::string time_text(const PlaceAndTime& when)
 {
-    throw InputError("--time", "\"" + text + "\" is no time with an offset from UTC",
-                     "expected for example 2026-03-21T12:00+01:00 or 2026-03-21T11:00Z");
-}
-
-/// Hours of "+01:00", "-0530" or "Z".
-double parse_utc_offset(const std::string& offset, const std::string& text)
-{
-    if (offset == "Z" || offset == "z")
-        return 0;
-    int hours = 0, minutes = 0, used = 0;
-    char sign = 0;
-    const bool with_colon = std::sscanf(offset.c_str(), "%c%2d:%2d%n", &sign, &hours, &minutes, &used) == 3;
-    if (!with_colon && std::sscanf(offset.c_str(), "%c%2d%2d%n", &sign, &hours, &minutes, &used) != 3)
-        bad_time(text);
-    const bool known_sign = sign == '+' || sign == '-';
-    if (!known_sign || used != static_cast<int>(offset.size()) || hours < 0 || hours > 14 || minutes < 0 ||
-        minutes > 59)
-        bad_time(text);
-    return (sign == '-' ? -1 : 1) * (hours + minutes / 60.0);
+    const int minutes = static_cast<int>(when.hour * 60 + 0.5);
+    const int offset = static_cast<int>(std::lround(std::fabs(when.utc_offset_h) * 60));
+    char text[48];
+    std::snprintf(text, sizeof text, "%04d-%02d-%02dT%02d:%02d%c%02d:%02d", when.year, when.month, when.day,
+                  minutes / 60, minutes % 60, when.utc_offset_h < 0 ? '-' : '+', offset / 60, offset % 60);
+    return text;
 }
 
 } // namespace
@@ -68,22 +57,15 @@ std::vector<std::string> sky_names()
 
 void parse_time(const std::string& text, PlaceAndTime& when)
 {
-    int year = 0, month = 0, day = 0, hour = 0, minute = 0, used = 0;
-    if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) != 5)
-        bad_time(text);
-    double second = 0;
-    int seconds_used = 0;
-    if (std::sscanf(text.c_str() + used, ":%2lf%n", &second, &seconds_used) == 1)
-        used += seconds_used;
-    const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month(static_cast<unsigned>(month)),
-                                           std::chrono::day(static_cast<unsigned>(day))};
-    if (!date.ok() || year < 1 || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 60))
-        bad_time(text);
-    when.utc_offset_h = parse_utc_offset(text.substr(static_cast<std::size_t>(used)), text);
-    when.year = year;
-    when.month = month;
-    when.day = day;
-    when.hour = hour + minute / 60.0 + second / 3600;
+    const std::optional<DateTime> time = parse_date_time(text);
+    if (!time || !time->utc_offset_h)
+        throw InputError("--time", "\"" + text + "\" is no time with an offset from UTC",
+                         "expected for example 2026-03-21T12:00+01:00 or 2026-03-21T11:00Z");
+    when.utc_offset_h = *time->utc_offset_h;
+    when.year = time->year;
+    when.month = time->month;
+    when.day = time->day;
+    when.hour = time->hour;
 }
 
 void parse_place(const std::string& text, PlaceAndTime& when)
@@ -111,11 +93,20 @@ DescribedSky sky_of(const SkyWords& words)
     PlaceAndTime when;
     parse_place(words.place, when);
     parse_time(words.time, when);
+    return describe_sky({sky->kind, sky->with_sun, words.turbidity, words.ground_reflectance}, when, words.north_deg);
+}
+
+DescribedSky describe_sky(const SkyOptions& options, const PlaceAndTime& when, double north_deg)
+{
+    const auto* sky = std::find_if(skies.begin(), skies.end(), [&](const NamedSky& s) {
+        return s.kind == options.kind && s.with_sun == options.with_sun;
+    });
     const SunPosition sun = sun_position(when);
-    const SkyOptions options{sky->kind, sky->with_sun, words.turbidity, words.ground_reflectance};
-    return {make_sky(options, sun_direction(sun, words.north_deg)),
-            std::string(sky->description) + ", sun at altitude " + tenths(sun.altitude_deg) + ", azimuth " +
-                tenths(sun.azimuth_deg) + " degrees (clockwise from north), " + words.time + ", " + words.place};
+    return {make_sky(options, sun_direction(sun, north_deg)),
+            (sky == skies.end() ? std::string("sky") : sky->description) +
+                (", sun at altitude " + tenths(sun.altitude_deg)) + ", azimuth " + tenths(sun.azimuth_deg) +
+                " degrees (clockwise from north), " + time_text(when) + ", latitude " + shortest(when.latitude_deg) +
+                ", longitude " + shortest(when.longitude_deg)};
 }
 
 } // namespace lightwell

@@ -21,8 +21,9 @@ std::vector<std::string> sky_names();
 /// A sky with the words that describe it for the header of results.
 struct DescribedSky {
     SkyModel model;
-    std::string description; ///< "clear sky, sun at altitude 37.5, azimuth 175.1 degrees"
+    std::string description; ///< "clear sky, sun at altitude 37.5, azimuth 175.1 degrees, ..."
 };
+DescribedSky describe_sky(const SkyOptions& options, const PlaceAndTime& when, double north_deg);
 /// @throws InputError that names the option, what was given and what is expected
 DescribedSky sky_of(const SkyWords& words);
 

@@ -40,7 +40,9 @@ std::string duration_text(double seconds)
 {
     const long whole = std::lround(std::fmax(0, seconds));
     char text[48];
-    if (whole < 60)
+    if (seconds < 9.95)
+        std::snprintf(text, sizeof text, "%.1f s", std::fmax(0, seconds));
+    else if (whole < 60)
         std::snprintf(text, sizeof text, "%ld s", whole);
     else if (whole < 3600)
         std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);

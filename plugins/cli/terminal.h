@@ -38,7 +38,7 @@ private:
     Clock::time_point stage_start_, last_;
 };
 
-/// "42 s", "3 min 05 s", "2 h 10 min".
+/// "4.2 s", "42 s", "3 min 05 s", "2 h 10 min".
 std::string duration_text(double seconds);
 
 } // namespace lightwell

@@ -94,15 +94,15 @@ def drawers():
 
 
 def desk(monitor_block, drawers_block):
-    """1600 x 800; the seat is on the side of small y."""
+    """1600 x 800 at 720, all that lies flat on it below 750 mm; the seat is on the side of small y."""
     block = Block("DESK")
-    block.box("0", (-800, 0, 715), (800, 800, 740))
+    block.box("0", (-800, 0, 695), (800, 800, 720))
     for x in (-760, 760):
         for y in (40, 760):
-            block.cylinder("I-FURN-METL", (x, y, 1), UP, 25, 713)
+            block.cylinder("I-FURN-METL", (x, y, 1), UP, 25, 693)
     block.box("0", (-700, 770, 350), (700, 788, 690))
-    block.box("I-FURN-SCRN", (-220, 170, 741), (220, 310, 760))
-    block.insert("I-FURN-METL", monitor_block, (0, 560, 740))
+    block.box("I-FURN-SCRN", (-220, 170, 721), (220, 310, 740))
+    block.insert("I-FURN-METL", monitor_block, (0, 560, 720))
     block.insert("0", drawers_block, (330, 120, 0))
     return block
 
@@ -131,9 +131,9 @@ def visitor_chair():
 
 def table(name, long, deep):
     block = Block(name)
-    block.box("0", (-long / 2, -deep / 2, 712), (long / 2, deep / 2, 740))
+    block.box("0", (-long / 2, -deep / 2, 692), (long / 2, deep / 2, 720))
     for x in (-long / 2 + 400, long / 2 - 400):
-        block.box("I-FURN-METL", (x - 30, -deep / 2 + 200, 1), (x + 30, deep / 2 - 200, 711))
+        block.box("I-FURN-METL", (x - 30, -deep / 2 + 200, 1), (x + 30, deep / 2 - 200, 691))
     return block
 
 

@@ -1,6 +1,6 @@
 """What a reader must find in each file: counted and measured on the shapes, not on the files."""
 import math
-from shapes import Band, Bent, Cylinder, Insert, Note, add, expanded, perpendicular_pair
+from shapes import Band, Bent, Cylinder, Note, add, expanded, perpendicular_pair
 
 MM2 = 1e-6  # m^2
 ENTITY = {"Face": "3DFACE", "Solid": "SOLID", "Bent": "LWPOLYLINE", "Band": "LWPOLYLINE", "Polyface": "POLYLINE",

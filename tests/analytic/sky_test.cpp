@@ -20,8 +20,7 @@ TEST(Sky, UnobstructedHorizontalIlluminanceIsTheClosedForm)
 {
     const Simulation uniform(under_sky(CieSky::uniform, 1000)), overcast(under_sky(CieSky::overcast, 1000));
     expect_agrees(illuminance_at(uniform, {{0, 0, 0}, {0, 0, 1}}, 1 << 14), 1000 * pi, 0.005);
-    // The blend of sky and ground over the horizon takes less than 1e-4 of the horizontal illuminance.
-    expect_agrees(illuminance_at(overcast, {{0, 0, 0}, {0, 0, 1}}, 1 << 14), 1000 * pi * 7 / 9, 0.005, 1e-4);
+    expect_agrees(illuminance_at(overcast, {{0, 0, 0}, {0, 0, 1}}, 1 << 14), 1000 * pi * 7 / 9, 0.005);
 }
 
 /// Round hole of radius R at height h in an opaque roof, uniform sky: E = pi L R^2 / (R^2 + h^2).
@@ -45,10 +44,10 @@ TEST(Sky, AGlazedOpeningIsFoundByItsPaneAndDimmedByIt)
     const ModifierId glass = scene.add_material("glass", Glass{Spectrum::grey(0.96), 1.52});
     const double r = 0.25, half = 0.5 * std::sqrt(pi) * r;
     scene.root.add_ring({{0, 0, 5}, {0, 0, -1}, r, 1e5}, black, "roof");
-    scene.root.add_polygon({{-2 * half, -2 * half, 5.01},
-                            {2 * half, -2 * half, 5.01},
-                            {2 * half, 2 * half, 5.01},
-                            {-2 * half, 2 * half, 5.01}},
+    scene.root.add_polygon({{-1.15 * half, -1.15 * half, 5.01},
+                            {1.15 * half, -1.15 * half, 5.01},
+                            {1.15 * half, 1.15 * half, 5.01},
+                            {-1.15 * half, 1.15 * half, 5.01}},
                            glass, "pane");
     const Simulation simulation(std::move(scene));
     expect_agrees(illuminance_at(simulation, {{0, 0, 0}, {0, 0, 1}}, 1 << 19), 0.881 * 1000 * pi * r * r / (r * r + 25),

@@ -72,6 +72,12 @@ class Includes(unittest.TestCase):
         self.assertFalse(may_include("engine/simulate", "importers"))
         self.assertTrue(may_include("plugins/cli", "importers/dxf"))
 
+    def test_a_folder_without_a_target_belongs_to_the_one_above(self):
+        self.assertEqual(findings(check_includes, files={
+            "materials/CMakeLists.txt": "lightwell_library(materials SOURCES m.cpp library/l.cpp USES base)",
+            "materials/library/l.h": '#include "engine/base/a.h"\n', "materials/m.cpp": '#include "materials/library/l.h"\n',
+            "materials/library/l.cpp": '#include "materials/library/l.h"\n'}), [])
+
     def test_peers_do_not_see_each_other(self):
         self.assertFalse(may_include("engine/sky", "engine/pictures"))
         self.assertFalse(may_include("importers/dxf", "importers/obj"))

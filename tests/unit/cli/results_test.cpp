@@ -71,11 +71,11 @@ TEST(SceneHash, ChangesWithGeometryAndMaterialsAndNotWithViews)
 
 TEST(Terminal, SaysDurationsInTheirUsualUnits)
 {
-    EXPECT_EQ(duration_text(0.4), "0 s");
+    EXPECT_EQ(duration_text(0.44), "0.4 s");
     EXPECT_EQ(duration_text(59.4), "59 s");
     EXPECT_EQ(duration_text(185), "3 min 05 s");
     EXPECT_EQ(duration_text(7800), "2 h 10 min");
-    EXPECT_EQ(duration_text(-1), "0 s");
+    EXPECT_EQ(duration_text(-1), "0.0 s");
 }
 
 TEST(RunRecord, StandsBesideTheResultUnderItsName)

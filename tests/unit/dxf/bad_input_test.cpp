@@ -74,6 +74,16 @@ TEST(DxfBadInput, AbsurdArraysAreRefusedAndDoubledCopiesAreNot)
     EXPECT_EQ(layer_areas(same_place).at("A-WALL").surfaces, 1u);
 }
 
+TEST(DxfBadInput, ScalesAndArcsBeyondReasonAreRefused)
+{
+    const std::string block = "0 BLOCK 2 B 10 0 20 0 30 0 " + face + " 0 ENDBLK";
+    expect_error(drawing(block, "0 INSERT 2 B 8 A-CHAIR 41 1e-200 42 1e-200"), {"A-CHAIR", "1e-200"});
+    std::string arcs;
+    for (int i = 0; i < 3000; ++i)
+        arcs += "0 ARC 8 A-ARC 40 1e20 50 0 51 180 39 1 ";
+    expect_error(drawing("", arcs), {"A-ARC", "facets", "tolerance"});
+}
+
 TEST(DxfBadInput, PolyfacesAndMeshesWithWrongIndicesAndSizesAreNamed)
 {
     const std::string start = "0 POLYLINE 5 77 8 MESH 66 1 70 64 0 VERTEX 70 192 10 0 20 0 30 0 "

@@ -1,4 +1,5 @@
 #include "importers/dxf/colours.h"
+#include "importers/layers.h"
 #include "tests/unit/dxf/dxf_text.h"
 
 #include <gtest/gtest.h>
@@ -113,6 +114,39 @@ TEST(DxfBlocks, OfOtherFilesAndUndefinedOnesAreReported)
     EXPECT_EQ(reasons, (std::set<std::string>{"its block is drawn in another file; bind the reference",
                                               "its block is not defined"}));
     EXPECT_TRUE(imported.report.has(Finding::unsupported));
+}
+
+TEST(DxfBlocks, KeepTheirLayersThroughTheLayerMap)
+{
+    const std::string blocks = "0 BLOCK 2 IN 10 0 20 0 30 0 " + triangle("0", "", "A") + triangle("GREEN", "0", "B") +
+                               " 0 ENDBLK 0 BLOCK 2 OUT 10 0 20 0 30 0 0 INSERT 2 IN 8 0 62 0 0 INSERT 2 IN 8 BLUE " +
+                               " 0 ENDBLK ";
+    Imported imported = imported_text(drawing(blocks, "0 INSERT 2 OUT 8 RED 0 INSERT 2 OUT 8 GREEN", layers));
+    std::map<std::string, std::size_t> surfaces;
+    for (const LayerSummary& layer : summarize_layers(imported))
+        surfaces[layer.name] = layer.surfaces;
+    EXPECT_EQ(surfaces, (std::map<std::string, std::size_t>{{"RED", 1}, {"BLUE", 2}, {"GREEN", 5}}));
+    LayerMap map;
+    map.default_material = "grey_50";
+    map.rules.push_back({"BLUE", "", "", "", "", "", "void", EmissionSide::both, 1});
+    apply_layer_map(imported, map);
+    EXPECT_NO_THROW(validate(imported.scene));
+    std::size_t left = 0;
+    visit_expanded(imported.scene, [&](const Part&, const Surface&, const Affine&, ModifierId id) {
+        ++left;
+        EXPECT_NE(resolve(imported.scene, id).material, nullptr);
+    });
+    EXPECT_EQ(left, 6u);
+}
+
+TEST(DxfBlocks, ThatAreClippedAreReported)
+{
+    std::string text = drawing("", triangle("RED", "", "A"));
+    text.insert(text.rfind("0\nEOF"), tags("0 SECTION 2 OBJECTS 0 SPATIAL_FILTER 5 1A 0 SPATIAL_FILTER 5 1B 0 ENDSEC"));
+    const Imported imported = imported_text(text);
+    ASSERT_EQ(imported.report.notes().size(), 1u);
+    EXPECT_EQ(imported.report.notes()[0].finding, Finding::unsupported);
+    EXPECT_EQ(imported.report.notes()[0].count, 2u);
 }
 
 TEST(DxfNames, AreDecodedFromCodePagesEscapesAndUtf8)

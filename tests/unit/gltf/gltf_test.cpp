@@ -1,6 +1,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "tests/unit/obj/measure.h"
+#include "importers/layers.h"
+#include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -218,6 +219,30 @@ TEST(Gltf, CamerasBecomeViewsLightsAreCountedAndCopiesAreInstances)
     EXPECT_NEAR(measure(imported).layers.at("Chairs").area_m2, truth["chairs_area_m2"].get<double>(), 1e-6);
 }
 
+TEST(Gltf, ALayerMapReachesEachInstanceOfASharedMesh)
+{
+    Imported imported = import_gltf(fixtures / "nodes.gltf", {});
+    LayerMap map;
+    LayerRule wall, floor;
+    wall.layer = "A-WALL";
+    wall.use = "Paint";
+    floor.layer = "A-FLOR*";
+    floor.use = "void";
+    map.rules = {wall, floor};
+    apply_layer_map(imported, map);
+    validate(imported.scene);
+    double area = 0;
+    visit_expanded(imported.scene,
+                   [&](const Part& part, const Surface& surface, const Affine& to_world, ModifierId modifier) {
+                       EXPECT_NE(resolve(imported.scene, modifier).material, nullptr);
+                       Share share;
+                       Box bounds;
+                       measure_surface(part, surface, to_world, share, bounds);
+                       area += share.area_m2;
+                   });
+    EXPECT_NEAR(area, 2 + 2 + 6 + 2, 1e-6); // all but the panel of A-FLOR-2
+}
+
 TEST(Gltf, OptionsOverrideUnitAndUpAxis)
 {
     const Imported imported = import_gltf(fixtures / "nodes.gltf", ImportOptions{.metres_per_unit = 0.01, .up = "z"});
@@ -316,6 +341,29 @@ TEST(Gltf, ADamagedPrimitiveIsLeftOutAndTheRestIsKept)
     EXPECT_EQ(imported.ledger.made_count(), 1u);
     EXPECT_EQ(skipped_for(imported, "damaged"), 1u);
     EXPECT_EQ(noted(imported.report, "accessor 9 of 1"), 1u);
+}
+
+TEST(Gltf, PrimitivesThatShareVerticesKeepOnlyTheirOwn)
+{
+    const Imported imported = import_gltf(fixtures / "modes.gltf", {});
+    for (const Surface& surface : imported.scene.root.surfaces) {
+        const Mesh& mesh = *imported.scene.root.meshes[surface.index];
+        const std::set<std::uint32_t> used(mesh.triangles.begin(), mesh.triangles.end());
+        EXPECT_EQ(used.size(), mesh.points.size()) << surface.name;
+    }
+    const Imported small = import_bytes(small_file("\"count\":3,", "\"count\":2,"));
+    EXPECT_TRUE(measure(small).bounds.empty()) << "two vertices make no triangle";
+}
+
+TEST(Gltf, ThousandsOfPrimitivesThatRepeatOneAccessorAreRefused)
+{
+    std::string text = R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":10000,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":120000}],
+"buffers":[{"byteLength":120000,"uri":"data:application/octet-stream;base64,)";
+    text.append(160000, 'A').append("\"}],\"meshes\":[{\"primitives\":[");
+    for (int i = 0; i < 4000; ++i)
+        text.append(i ? "," : "").append("{\"attributes\":{\"POSITION\":0}}");
+    EXPECT_NE(message_of(text + "]}]}").find("repeat the same accessors"), std::string::npos);
 }
 
 TEST(Gltf, ContentDecidesWhetherAFileIsGltf)

@@ -1,5 +1,6 @@
 #include "engine/base/errors.h"
-#include "tests/unit/obj/measure.h"
+#include "engine/base/files.h"
+#include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -118,6 +119,104 @@ TEST(SharedGltf, FilesThatTheReferenceValidatorAcceptsLoadAndBrokenOnesNeverCras
     }
     std::cout << accepted << " read, " << refused << " refused\n";
     EXPECT_GE(accepted + refused, 190u);
+}
+
+/// Imports copies of a file with one wrong byte each.  @return how many were read
+std::size_t read_with_wrong_bytes(const std::filesystem::path& folder, const std::string& main_file,
+                                  const std::string& damaged_file, std::size_t step)
+{
+    const std::filesystem::path copy = std::filesystem::temp_directory_path() / "lightwell_wrong_bytes";
+    std::filesystem::remove_all(copy);
+    std::filesystem::copy(folder, copy, std::filesystem::copy_options::recursive);
+    const MappedFile mapped(folder / damaged_file);
+    const std::string whole(mapped.bytes());
+    std::size_t read = 0;
+    for (std::size_t at = 0; at < whole.size(); at += step) {
+        std::string bytes = whole;
+        bytes[at] = static_cast<char>(bytes[at] ^ (at % 2 ? 0x15 : 0xff));
+        write_text_atomically(copy / damaged_file, bytes);
+        try {
+            validate(import_gltf(copy / main_file, {}).scene);
+            ++read;
+        } catch (const InputError&) {
+            continue;
+        }
+    }
+    std::filesystem::remove_all(copy);
+    return read;
+}
+
+TEST(SharedGltf, OneWrongByteInPackedDataNeverCrashes)
+{
+    const std::filesystem::path folder = shared_fixtures() / "gltf";
+    if (!std::filesystem::exists(folder))
+        GTEST_SKIP() << "the files from elsewhere are not at hand";
+    const std::filesystem::path draco = folder / "online3dviewer/Box/glTF-Draco";
+    std::string packed;
+    for (const auto& entry : std::filesystem::directory_iterator(draco))
+        if (entry.path().extension() == ".bin")
+            packed = entry.path().filename().string();
+    EXPECT_GT(read_with_wrong_bytes(draco, "Box.gltf", packed, 1), 0u);
+    EXPECT_GT(read_with_wrong_bytes(folder / "gltf-transform", "BoxMeshopt.glb", "BoxMeshopt.glb", 3), 0u);
+}
+
+/// Area of the nodes whose layer begins so.
+double area_of(const Measured& found, const std::string& start)
+{
+    double area = 0;
+    for (const auto& [layer, share] : found.layers)
+        if (layer.rfind(start, 0) == 0)
+            area += share.area_m2;
+    return area;
+}
+
+TEST(SharedGltf, TheOfficeKeepsItsAreasCamerasAndCopies)
+{
+    const std::filesystem::path folder = shared_fixtures() / "hosts/blender_office";
+    if (!std::filesystem::exists(folder))
+        GTEST_SKIP() << "the office is not at hand";
+    const Json truth = Json::parse(std::ifstream(folder / "truth.json"));
+    for (const char* name : {"office.glb", "office.gltf"}) {
+        SCOPED_TRACE(name);
+        const Imported office = import_gltf(folder / name, {});
+        validate(office.scene);
+        const Measured found = measure(office);
+        EXPECT_NEAR(area_of(found, "Floor"), 24, 1e-4);
+        EXPECT_NEAR(area_of(found, "Ceiling"), 24, 1e-4);
+        EXPECT_NEAR(area_of(found, "Wall ") + area_of(found, "Door leaf"), 53.55, 1e-4);
+        EXPECT_NEAR(area_of(found, "Window pane"), 5.25, 1e-4);
+        EXPECT_NEAR(area_of(found, "LED panel"), 0.72, 1e-4);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            EXPECT_NEAR(found.bounds.low[axis], truth["bbox_metres"][0][i].get<double>(), 1e-5);
+            EXPECT_NEAR(found.bounds.high[axis], truth["bbox_metres"][1][i].get<double>(), 1e-5);
+        }
+        ASSERT_GE(office.scene.views.size(), 2u);
+        const View& view = office.scene.views[0];
+        const Json& camera = truth["cameras"][view.name];
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(view.position[axis], camera["position"][static_cast<std::size_t>(axis)].get<double>(), 1e-5);
+            EXPECT_NEAR(view.direction[axis], camera["forward"][static_cast<std::size_t>(axis)].get<double>(), 1e-5);
+        }
+    }
+}
+
+TEST(SharedGltf, TheBuildingHasItsPlaneAreasAndBounds)
+{
+    const std::filesystem::path folder = shared_fixtures() / "hosts/freecad_building";
+    if (!std::filesystem::exists(folder))
+        GTEST_SKIP() << "the building is not at hand";
+    const Json truth = Json::parse(std::ifstream(folder / "truth.json"));
+    const Imported building = import_gltf(folder / "building.glb", {});
+    validate(building.scene);
+    const Measured found = measure(building);
+    for (int axis = 0; axis < 3; ++axis) { // curved parts are cut into chords
+        const auto i = static_cast<std::size_t>(axis);
+        EXPECT_NEAR(found.bounds.low[axis], truth["bbox_m"][0][i].get<double>(), 5e-3);
+        EXPECT_NEAR(found.bounds.high[axis], truth["bbox_m"][1][i].get<double>(), 5e-3);
+    }
+    EXPECT_NEAR(area_of(found, "Floor slab"), 90.64, 1e-3);
+    EXPECT_NEAR(area_of(found, "Wall ") + area_of(found, "Partition"), 220.82, 1e-2);
 }
 
 } // namespace

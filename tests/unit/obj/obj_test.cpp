@@ -1,6 +1,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "tests/unit/obj/measure.h"
+#include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -233,6 +233,37 @@ TEST(Obj, EveryTruncationOfAFileIsReadOrRefusedButNeverCrashes)
             EXPECT_LT(size, 80u) << "only a file without any vertex may be refused";
         }
     }
+}
+
+TEST(Obj, OneWrongByteAnywhereNeverCrashes)
+{
+    const MappedFile room(fixtures / "room.obj");
+    const std::string text(room.bytes());
+    std::size_t read = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        std::string bytes = text;
+        bytes[at] = static_cast<char>(bytes[at] ^ (at % 2 ? 0x01 : 0x1e));
+        const Imported imported = import_text(bytes);
+        EXPECT_NO_THROW(validate(imported.scene)) << at;
+        read += imported.ledger.made_count() > 0 ? 1 : 0;
+    }
+    EXPECT_GT(read, text.size() * 9 / 10);
+}
+
+TEST(Obj, AHugeConcaveOutlineThatIsWarpedIsCutInReasonableTime)
+{
+    std::string text = "# up: z\n# unit: m\n";
+    std::string face = "f";
+    constexpr int teeth = 20000;
+    for (int i = 0; i < teeth; ++i) {
+        text += "v " + std::to_string(i) + (i % 2 ? " 1 0.5\n" : " 2 0\n");
+        face.append(" ").append(std::to_string(i + 1));
+    }
+    text += "v " + std::to_string(teeth) + " -9 0\nv 0 -9 900\n";
+    face.append(" -2 -1\n");
+    const Imported imported = import_text(text + face);
+    EXPECT_EQ(imported.ledger.made_count(), 1u);
+    EXPECT_EQ(noted(imported.report, "corners do not lie in one plane"), 1u);
 }
 
 TEST(Obj, AFaceMayComeBeforeItsVerticesAndCommentsMayEndALine)

@@ -1,5 +1,5 @@
 #include "engine/base/errors.h"
-#include "tests/unit/obj/measure.h"
+#include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -54,7 +54,8 @@ void expect_truth(const Imported& imported, const Json& truth)
     }
     for (const auto& [name, area] : truth["area_per_material"].items()) {
         const double expected = area.get<double>(); // given with six digits
-        EXPECT_NEAR(found.materials.at(name == "(none)" ? std::string() : name).area_m2, expected, 1e-5 * expected) << name;
+        EXPECT_NEAR(found.materials.at(name == "(none)" ? std::string() : name).area_m2, expected, 1e-5 * expected)
+            << name;
     }
 }
 

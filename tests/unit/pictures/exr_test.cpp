@@ -3,8 +3,11 @@
 
 #include <bit>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 namespace lightwell {
 
@@ -244,6 +247,13 @@ TEST(Exr, WhatCannotBeWrittenIsRefusedAndLeavesTheOldFile)
     EXPECT_NE(
         error_of([&] { write_exr(incomplete, folder / "p.exr"); }).find("channel \"G\" has 3 values, expected 20"),
         std::string::npos);
+    for (const auto& [entry, value] :
+         std::map<std::string, std::string>{{"chromaticities", "0.64 0.33 red"}, {"whiteLuminance", "-1"}}) {
+        Picture colour = picture;
+        colour.header[entry] = value;
+        const std::string error = error_of([&] { write_exr(colour, folder / "p.exr"); });
+        EXPECT_NE(error.find("p.exr: header entry " + entry + " is \"" + value + "\""), std::string::npos) << error;
+    }
     Picture reserved = picture;
     reserved.header["channels"] = "three";
     EXPECT_NE(error_of([&] { write_exr(reserved, folder / "p.exr"); }).find("\"channels\""), std::string::npos);
@@ -252,6 +262,39 @@ TEST(Exr, WhatCannotBeWrittenIsRefusedAndLeavesTheOldFile)
               std::string::npos);
     EXPECT_EQ(bytes_of(folder / "p.exr"), before);
     EXPECT_EQ(folder.file_count(), 1u) << "no temporary file is left";
+}
+
+/// A child that may write only 20,000 bytes to a file, as on a full disk.
+TEST(Exr, AFullDiskIsReportedAndLeavesNothing)
+{
+    const Folder folder;
+    const Picture picture = noise(300, 200, {"R", "G", "B"});
+    const pid_t child = fork();
+    if (child == 0) {
+        signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{20000, 20000};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        int refused = 0;
+        try {
+            write_exr(picture, folder / "p.exr");
+        } catch (const InputError&) {
+            ++refused;
+        }
+        try {
+            GrowingPicture growing(folder / "q.exr", picture, 64);
+            for (int x = 0; x < 256; x += 64)
+                growing.put(x, 0, tile_of(picture, x, 0, 64));
+        } catch (const InputError&) {
+            ++refused;
+        }
+        _exit(refused);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 2);
+    EXPECT_EQ(folder.file_count(), 1u) << "only the growing picture's work in progress";
+    EXPECT_TRUE(std::filesystem::exists(folder / "q.partial.exr"));
 }
 
 } // namespace lightwell

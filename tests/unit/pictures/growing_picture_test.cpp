@@ -186,6 +186,10 @@ TEST(GrowingPicture, WrongTilesAreRefused)
     Picture without = tile;
     without.channels.erase("G");
     EXPECT_NE(error_of([&] { growing.put(0, 0, without); }).find("has no channel \"G\""), std::string::npos);
+    EXPECT_NE(error_of([&] {
+                  GrowingPicture(folder / "empty.exr", Picture{8, 8, {}, {}}, tile_size);
+              }).find("has no channel"),
+              std::string::npos);
     growing.finish(picture);
     EXPECT_NE(error_of([&] { growing.put(0, 0, tile); }).find("already finished"), std::string::npos);
     EXPECT_NE(

@@ -19,7 +19,9 @@ public:
     Folder()
     {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        path_ = std::filesystem::temp_directory_path() /
+        // Thousands of small files are written; in memory where the system offers that.
+        const std::filesystem::path memory = "/dev/shm";
+        path_ = (access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path()) /
                 ("lightwell-" + std::to_string(getpid()) + "-" + info->test_suite_name() + "-" + info->name());
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);

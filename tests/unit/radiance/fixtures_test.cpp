@@ -3,11 +3,50 @@
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 namespace lightwell {
 namespace {
+
+TEST(SceneFixtures, TheRoomHasTheTypesAreasBoundsAndNotesOfItsTruth)
+{
+    const std::filesystem::path folder = LIGHTWELL_ROOT "/tests/fixtures/radiance";
+    const auto truth = nlohmann::json::parse(std::ifstream(folder / "room.rad.truth.json"));
+    Report report;
+    const Scene scene = read_radiance(folder / "room.rad", report);
+    validate(scene);
+    const char* const names[] = {"polygon", "sphere", "bubble", "cone", "cup", "cylinder", "tube", "ring", "source"};
+    std::map<std::string, int> types;
+    std::map<std::string, double> areas;
+    visit_expanded(scene, [&](const Part& part, const Surface& surface, const Affine&, ModifierId modifier) {
+        ++types[names[static_cast<std::size_t>(surface.shape)]];
+        areas[scene.modifiers[static_cast<std::size_t>(modifier)].name] += surface_area_m2(part, surface);
+    });
+    EXPECT_EQ(expanded_count(scene), truth["surfaces"].get<std::size_t>());
+    for (const auto& [type, count] : truth["types"].items())
+        EXPECT_EQ(types[type], count.get<int>()) << type;
+    for (const auto& [layer, area] : truth["area_m2"].items())
+        EXPECT_NEAR(areas[layer], area.get<double>(), 1e-9) << layer;
+    const Box box = bounds(scene);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(box.low[axis], truth["bounds_low"][axis].get<double>(), 1e-9) << axis;
+        EXPECT_NEAR(box.high[axis], truth["bounds_high"][axis].get<double>(), 1e-9) << axis;
+    }
+    ASSERT_EQ(report.notes().size(), truth["notes"].size());
+    for (std::size_t i = 0; i < report.notes().size(); ++i) {
+        const auto& note = truth["notes"][i];
+        const std::string place =
+            "room.rad:" + std::to_string(note["line"].get<int>()) + ": " + note["type"].get<std::string>();
+        EXPECT_NE(report.notes()[i].place.find(place), std::string::npos) << report.notes()[i].place;
+        EXPECT_EQ(to_string(report.notes()[i].finding), note["finding"].get<std::string>());
+    }
+    EXPECT_EQ(scene.root.name, truth["part"].get<std::string>());
+    ASSERT_EQ(scene.views.size(), 1u);
+    EXPECT_EQ(scene.views[0].name, truth["view"]["name"].get<std::string>());
+    EXPECT_EQ(scene.views[0].horizontal, truth["view"]["horizontal"].get<double>());
+}
 
 TEST(SceneFixtures, TheCornellBoxHasTheSurfacesAndAreasOfItsGroundTruth)
 {

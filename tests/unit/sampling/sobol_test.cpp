@@ -49,6 +49,19 @@ TEST(Sobol, EveryAlignedRunOfAPairIsANetForAnyPairSeedAndItem)
             }
 }
 
+TEST(Sobol, TwoNeighbouringPairsAreStratifiedJointly)
+{
+    // A sequence of quality t <= 3: 256 points put 16 into each of the 16 halves, quarters, ... of four dimensions.
+    const SampleSequence sequence(8, 9);
+    std::vector<int> boxes(16);
+    for (std::uint32_t i = 0; i < 256; ++i) {
+        const UnitSquare a = sequence.pair(i, 6), b = sequence.pair(i, 7);
+        ++boxes[(a.u < 0.5) + 2 * (a.v < 0.5) + 4 * (b.u < 0.5) + 8 * (b.v < 0.5)];
+    }
+    for (int count : boxes)
+        EXPECT_EQ(count, 16);
+}
+
 TEST(Sobol, OddPairsAndSingleDimensionsAreStratifiedInEachCoordinate)
 {
     const SampleSequence sequence(3, 4);

@@ -1,0 +1,533 @@
+#include "engine/base/errors.h"
+#include "importers/layers.h"
+#include "materials/library.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace lightwell {
+namespace {
+
+SurfaceKey on(const std::string& layer, const std::string& entity = "3DFACE")
+{
+    SurfaceKey key;
+    key.layer = layer;
+    key.entity = entity;
+    return key;
+}
+
+/// A small building made by hand: what an importer hands over.
+class LayerMaps : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        folder_ = std::filesystem::path(testing::TempDir()) /
+                  (std::string("map_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    LayerMap map(const std::string& text)
+    {
+        std::ofstream(folder_ / "map.toml") << text;
+        return read_layer_map(folder_ / "map.toml");
+    }
+    void apply(const std::string& text)
+    {
+        apply_layer_map(imported_, map(text));
+        EXPECT_NO_THROW(validate(imported_.scene));
+        for (std::size_t i = 0; i < imported_.scene.modifiers.size(); ++i) {
+            const bool open = std::holds_alternative<Inherited>(imported_.scene.modifiers[i].what);
+            EXPECT_TRUE(open || resolve(imported_.scene, static_cast<ModifierId>(i)).material);
+        }
+        EXPECT_EQ(imported_.keys.size(), imported_.scene.modifiers.size());
+    }
+    std::string complaint(const std::string& text)
+    {
+        try {
+            apply_layer_map(imported_, map(text));
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return {};
+    }
+
+    /// A square of one square metre whose front looks upwards.
+    static void square(Part& part, ModifierId modifier, const std::string& name, double z = 0)
+    {
+        part.add_polygon({{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}}, modifier, name);
+    }
+    void face(const SurfaceKey& key)
+    {
+        square(imported_.scene.root, keys_.modifier_for(key), "h" + std::to_string(++handle_));
+        imported_.ledger.made();
+    }
+    /// The six sides of a cube, fronts outwards (or inwards).
+    static void cube(Part& part, ModifierId modifier, bool inwards = false)
+    {
+        const Point c[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+        for (auto [p, q, r, s] : {std::array{0, 3, 2, 1}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
+                                  std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}}) {
+            std::vector<Point> corners{c[p], c[q], c[r], c[s]};
+            if (inwards)
+                std::reverse(corners.begin(), corners.end());
+            part.add_polygon(corners, modifier, "cube");
+        }
+    }
+
+    /// Expanded surfaces by name of the modifier.
+    std::map<std::string, int> by_modifier() const
+    {
+        std::map<std::string, int> counts;
+        visit_expanded(imported_.scene, [&](const Part&, const Surface&, const Affine&, ModifierId modifier) {
+            ++counts[modifier == void_modifier ? "void"
+                                               : imported_.scene.modifiers[static_cast<std::size_t>(modifier)].name];
+        });
+        return counts;
+    }
+    std::string material_of(const std::string& modifier) const
+    {
+        const ModifierId id = imported_.scene.find_modifier(modifier);
+        EXPECT_NE(id, void_modifier) << modifier;
+        const auto* alias = std::get_if<Alias>(&imported_.scene.modifiers[static_cast<std::size_t>(id)].what);
+        return alias ? imported_.scene.modifiers[static_cast<std::size_t>(alias->target)].name : "no alias";
+    }
+    double radiance_of(const std::string& modifier) const
+    {
+        return photopic(emitted_radiance(*resolve(imported_.scene, imported_.scene.find_modifier(modifier)).material));
+    }
+
+    Imported imported_;
+    KeyTable keys_{imported_};
+    std::filesystem::path folder_;
+    int handle_ = 0;
+};
+
+TEST_F(LayerMaps, TheLastMatchingRuleWins)
+{
+    face(on("A-WALL"));
+    face(on("A-WALL-GLAZ"));
+    face(on("A-FLOR"));
+    apply(R"(
+default = "grey_20"
+[[rule]]
+layer = "A-*"
+use = "white_paint"
+[[rule]]
+layer = "*GLAZ"
+use = "glass_double_clear"
+)");
+    EXPECT_EQ(material_of("A-WALL"), "white_paint");
+    EXPECT_EQ(material_of("A-WALL-GLAZ"), "glass_double_clear");
+    EXPECT_EQ(material_of("A-FLOR"), "white_paint");
+    EXPECT_FALSE(imported_.report.has(Finding::unmapped));
+}
+
+TEST_F(LayerMaps, EveryWordOfARuleMustFit)
+{
+    SurfaceKey key = on("L", "CIRCLE");
+    key.block = "LAMP";
+    key.group = "g1";
+    key.material = "m1";
+    key.colour = Spectrum{1, 0, 0};
+    face(key);
+    face(on("L"));
+    apply(R"(
+default = "grey_20"
+[[rule]]
+layer = "l"
+group = "g?"
+block = "L*"
+material = "m[0-9]"
+entity = "CIRCLE..LINE"
+colour = "#ff0000"
+use = "oak"
+)");
+    EXPECT_EQ(material_of("L/oak"), "oak");
+    EXPECT_EQ(material_of("L/grey_20"), "grey_20");
+    EXPECT_EQ(by_modifier(), (std::map<std::string, int>{{"L/oak", 1}, {"L/grey_20", 1}}));
+}
+
+TEST_F(LayerMaps, RangesTakeBothEnds)
+{
+    for (const char* layer : {"01", "05", "10", "11"})
+        face(on(layer));
+    apply("default = \"grey_20\"\n[[rule]]\nlayer = \"05..10\"\nuse = \"oak\"\n");
+    EXPECT_EQ(material_of("01"), "grey_20");
+    EXPECT_EQ(material_of("05"), "oak");
+    EXPECT_EQ(material_of("10"), "oak");
+    EXPECT_EQ(material_of("11"), "grey_20");
+}
+
+TEST_F(LayerMaps, KeysOfALayerWithTheSameMaterialBecomeOneModifier)
+{
+    for (const char* entity : {"LINE", "3DFACE", "SOLID"})
+        face(on("A-WALL", entity));
+    face(on("A-FLOR"));
+    apply("default = \"white_paint\"\n");
+    EXPECT_EQ(by_modifier(), (std::map<std::string, int>{{"A-WALL", 3}, {"A-FLOR", 1}}));
+    EXPECT_EQ(imported_.scene.modifiers.size(), 3u) << "one material, two layers";
+}
+
+TEST_F(LayerMaps, WithoutARuleTheFilesOwnMaterialCountsThenGreyWithANote)
+{
+    imported_.file_materials.emplace_back("Brick", Plastic{Spectrum::grey(0.25), 0, 0});
+    SurfaceKey own = on("house");
+    own.material = "Brick";
+    face(own);
+    face(on("A-GLAZ"));
+    face(on("xyzzy"));
+    apply("");
+    EXPECT_EQ(material_of("house"), "Brick");
+    EXPECT_EQ(material_of("A-GLAZ"), "grey_50");
+    ASSERT_EQ(imported_.report.notes().size(), 2u);
+    EXPECT_EQ(imported_.report.notes()[0].finding, Finding::unmapped);
+    EXPECT_NE(imported_.report.notes()[0].text.find("it could be glass_double_clear"), std::string::npos);
+    EXPECT_NE(imported_.report.notes()[1].text.find("layer \"xyzzy\" has no material: set to grey_50"),
+              std::string::npos);
+}
+
+TEST_F(LayerMaps, AMaterialOfTheFileCanBeNamedAlsoBesideOneOfTheLibrary)
+{
+    imported_.file_materials.emplace_back("concrete", Plastic{Spectrum::grey(0.11), 0, 0});
+    face(on("a"));
+    face(on("b"));
+    apply("default = \"concrete\"\n[[rule]]\nlayer = \"a\"\nuse = \"file:concrete\"\n");
+    EXPECT_EQ(typical_reflectance(*resolve(imported_.scene, imported_.scene.find_modifier("a")).material).g, 0.11);
+    EXPECT_NEAR(typical_reflectance(*resolve(imported_.scene, imported_.scene.find_modifier("b")).material).g, 0.3,
+                1e-12);
+}
+
+TEST_F(LayerMaps, ALayerMayHaveTheNameOfAMaterial)
+{
+    face(on("oak"));
+    face(on("floor"));
+    apply("default = \"oak\"\n[[rule]]\nlayer = \"oak\"\nuse = \"glass_opal\"\n");
+    EXPECT_EQ(type_name(*resolve(imported_.scene, imported_.scene.find_modifier("oak")).material), "trans");
+    EXPECT_EQ(type_name(*resolve(imported_.scene, imported_.scene.find_modifier("floor")).material), "plastic");
+    std::map<std::string, int> names;
+    for (const Modifier& modifier : imported_.scene.modifiers)
+        EXPECT_EQ(++names[modifier.name], 1) << modifier.name;
+}
+
+TEST_F(LayerMaps, VoidDropsSurfacesAndTheLedgerStaysBalanced)
+{
+    face(on("A-WALL"));
+    face(on("A-ANNO", "SOLID"));
+    face(on("A-ANNO", "SOLID"));
+    const std::size_t read = imported_.ledger.read_count();
+    apply("default = \"grey_50\"\n[[rule]]\nlayer = \"A-ANNO\"\nuse = \"void\"\n");
+    EXPECT_EQ(by_modifier(), (std::map<std::string, int>{{"A-WALL", 1}}));
+    EXPECT_EQ(imported_.scene.root.polygons.size(), 1u);
+    EXPECT_EQ(imported_.ledger.read_count(), read);
+    EXPECT_EQ(imported_.ledger.made_count(), 1u);
+    ASSERT_EQ(imported_.ledger.skipped_list().size(), 1u);
+    EXPECT_EQ(imported_.ledger.skipped_list()[0].type, "SOLID");
+    EXPECT_EQ(imported_.ledger.skipped_list()[0].layer, "A-ANNO");
+    EXPECT_EQ(imported_.ledger.skipped_list()[0].count, 2u);
+}
+
+TEST_F(LayerMaps, AnEntityOfSeveralSurfacesIsDroppedOnce)
+{
+    const ModifierId modifier = keys_.modifier_for(on("X"));
+    for (int i = 0; i < 3; ++i)
+        square(imported_.scene.root, modifier, "2F", i);
+    imported_.ledger.made();
+    apply("default = \"void\"\n");
+    EXPECT_EQ(imported_.ledger.made_count(), 0u);
+    EXPECT_EQ(imported_.ledger.read_count(), 1u);
+}
+
+TEST_F(LayerMaps, EntitiesGatheredInAMeshAreDroppedByTheirNumber)
+{
+    auto mesh = std::make_shared<Mesh>();
+    mesh->points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh->triangles = {0, 1, 2};
+    imported_.scene.root.add_mesh(mesh, keys_.modifier_for(on("X", "face")), "f1");
+    imported_.ledger.made(40);
+    imported_.made_with_key = {40};
+    apply("default = \"void\"\n");
+    EXPECT_EQ(imported_.ledger.made_count(), 0u);
+    EXPECT_EQ(imported_.ledger.read_count(), 40u);
+}
+
+/// A block with one face on layer 0, inserted on several layers.
+class Blocks : public LayerMaps {
+protected:
+    void block()
+    {
+        SurfaceKey zero = on("0");
+        zero.block = "B";
+        inherited_ = keys_.inherited(zero);
+        Part part;
+        part.name = "B";
+        square(part, inherited_, "b1");
+        SurfaceKey fixed = on("STEEL");
+        fixed.block = "B";
+        square(part, keys_.modifier_for(fixed), "b2", 1);
+        imported_.scene.prototypes.push_back(part);
+        imported_.ledger.made(2);
+    }
+    void insert(const std::string& layer, double x)
+    {
+        SurfaceKey key = on(layer);
+        key.block = "B";
+        imported_.scene.root.add_instance({0, Affine::translate({x, 0, 0}), {{inherited_, keys_.modifier_for(key)}}},
+                                          "i" + layer);
+        imported_.ledger.made();
+    }
+    ModifierId inherited_ = 0;
+};
+
+TEST_F(Blocks, InstancesKeepTheirLayersAndShareThePrototype)
+{
+    block();
+    insert("CHAIR", 0);
+    insert("DESK", 2);
+    apply("default = \"grey_50\"\n[[rule]]\nlayer = \"DESK\"\nuse = \"oak\"\n");
+    EXPECT_EQ(by_modifier(), (std::map<std::string, int>{{"CHAIR", 1}, {"DESK", 1}, {"STEEL", 2}}));
+    EXPECT_EQ(imported_.scene.prototypes.size(), 1u);
+}
+
+TEST_F(Blocks, AVoidLayerDropsOnlyTheFacesOfItsInstances)
+{
+    block();
+    insert("CHAIR", 0);
+    insert("DESK", 2);
+    insert("DESK", 4);
+    apply("default = \"grey_50\"\n[[rule]]\nlayer = \"DESK\"\nuse = \"void\"\n");
+    EXPECT_EQ(by_modifier(), (std::map<std::string, int>{{"CHAIR", 1}, {"STEEL", 3}}));
+    EXPECT_EQ(imported_.scene.prototypes.size(), 2u);
+    EXPECT_EQ(imported_.ledger.made_count(), 5u) << "the face still stands on CHAIR";
+}
+
+TEST_F(Blocks, NestedInstancesPassTheLayerOn)
+{
+    block();
+    SurfaceKey outer_key = on("0");
+    outer_key.block = "OUTER";
+    const ModifierId outer = keys_.inherited(outer_key);
+    Part part;
+    part.name = "OUTER";
+    part.add_instance({0, Affine::translate({0, 0, 5}), {{inherited_, outer}}}, "n1");
+    imported_.scene.prototypes.push_back(part);
+    for (const char* layer : {"LAMP", "GONE", "WOOD"})
+        imported_.scene.root.add_instance({1, {}, {{outer, keys_.modifier_for(on(layer))}}}, layer);
+    apply(R"(
+default = "grey_50"
+[[rule]]
+layer = "LAMP"
+use = "led_panel_4000cd"
+side = "back"
+[[rule]]
+layer = "GONE"
+use = "void"
+)");
+    EXPECT_EQ(by_modifier(), (std::map<std::string, int>{{"LAMP", 1}, {"WOOD", 1}, {"STEEL", 3}}));
+    visit_expanded(imported_.scene, [&](const Part& p, const Surface& s, const Affine&, ModifierId m) {
+        if (imported_.scene.modifiers[static_cast<std::size_t>(m)].name != "LAMP")
+            return;
+        const Polygon& polygon = p.polygons[s.index];
+        EXPECT_LT(polygon_area_vector(&p.points[polygon.first], polygon.count).z, 0) << "turned over";
+    });
+}
+
+TEST_F(Blocks, AnInstanceOfNothingGoesWithANote)
+{
+    block();
+    insert("DESK", 2);
+    face(on("A-WALL"));
+    apply("default = \"void\"\n[[rule]]\nlayer = \"A-WALL\"\nuse = \"grey_50\"\n");
+    EXPECT_EQ(by_modifier(), (std::map<std::string, int>{{"A-WALL", 1}}));
+    EXPECT_TRUE(imported_.scene.prototypes.empty());
+    EXPECT_TRUE(imported_.scene.root.instances.empty());
+    EXPECT_TRUE(imported_.report.has(Finding::ignored));
+}
+
+TEST_F(LayerMaps, AnOpenEmitterSharesItsFluxBetweenTwoSides)
+{
+    face(on("LAMPS"));
+    apply("[[rule]]\nlayer = \"LAMPS\"\nuse = \"led_panel_4000cd\"\n");
+    ASSERT_EQ(imported_.scene.root.polygons.size(), 2u);
+    double up = 0;
+    for (const Polygon& polygon : imported_.scene.root.polygons)
+        up += polygon_area_vector(&imported_.scene.root.points[polygon.first], polygon.count).z;
+    EXPECT_EQ(up, 0) << "one looks up, one down";
+    // 1 m2 x 2 sides x pi x L = the flux of one side at the stated luminance.
+    EXPECT_NEAR(2 * radiance_of("LAMPS") * lumens_per_watt, 4000, 1e-9);
+    EXPECT_TRUE(imported_.report.has(Finding::assumed));
+    const std::vector<LayerSummary> layers = summarize_layers(imported_);
+    ASSERT_EQ(layers.size(), 1u);
+    EXPECT_EQ(layers[0].surfaces, 1u) << "as it was drawn";
+    EXPECT_NEAR(layers[0].area_m2, 1, 1e-12);
+    EXPECT_EQ(layers[0].material, "led_panel_4000cd");
+}
+
+TEST_F(LayerMaps, FrontAndBackGiveAllLightToOneSide)
+{
+    face(on("FRONT"));
+    face(on("BACK"));
+    apply(R"(
+[[rule]]
+layer = "FRONT"
+use = "led_panel_4000cd"
+side = "front"
+[[rule]]
+layer = "BACK"
+use = "led_panel_4000cd"
+side = "back"
+)");
+    const Part& root = imported_.scene.root;
+    ASSERT_EQ(root.polygons.size(), 2u);
+    EXPECT_EQ(polygon_area_vector(&root.points[root.polygons[0].first], 4).z, 1);
+    EXPECT_EQ(polygon_area_vector(&root.points[root.polygons[1].first], 4).z, -1);
+    EXPECT_NEAR(radiance_of("FRONT") * lumens_per_watt, 4000, 1e-9);
+    EXPECT_NEAR(radiance_of("BACK") * lumens_per_watt, 4000, 1e-9);
+}
+
+TEST_F(LayerMaps, ClosedBodiesEmitOutwardsHoweverTheyWereDrawn)
+{
+    Part& root = imported_.scene.root;
+    const ModifierId lamp = keys_.modifier_for(on("LAMPS"));
+    cube(root, lamp, true);
+    root.add_sphere({{5, 0, 0}, 1}, Shape::bubble, lamp, "s");
+    root.add_cone({{{9, 0, 0}, {9, 0, 2}}, {0.5, 0.5}}, Shape::tube, lamp, "c");
+    root.add_ring({{9, 0, 2}, {0, 0, -1}, 0, 0.5}, lamp, "lid");
+    apply("[[rule]]\nlayer = \"LAMPS\"\nuse = \"lamp\"\nside = \"back\"\n");
+    ASSERT_EQ(root.surfaces.size(), 9u);
+    for (std::size_t i = 0; i < 6; ++i) {
+        const Point* corners = &root.points[root.polygons[i].first];
+        EXPECT_GT(dot(polygon_area_vector(corners, 4), (corners[0] + corners[2]) / 2 - Vec3{0.5, 0.5, 0.5}), 0) << i;
+    }
+    EXPECT_EQ(root.surfaces[6].shape, Shape::sphere);
+    EXPECT_EQ(root.surfaces[7].shape, Shape::cylinder);
+    EXPECT_EQ(root.rings[0].normal, (Direction{0, 0, 1}));
+    EXPECT_NEAR(radiance_of("LAMPS") * lumens_per_watt, 10000, 1e-9);
+}
+
+TEST_F(LayerMaps, ABodyWithAHoleIsASheet)
+{
+    cube(imported_.scene.root, keys_.modifier_for(on("LAMPS")));
+    imported_.scene.root.surfaces.pop_back();
+    apply("[[rule]]\nlayer = \"LAMPS\"\nuse = \"lamp\"\n");
+    EXPECT_EQ(imported_.scene.root.surfaces.size(), 10u);
+    EXPECT_NEAR(radiance_of("LAMPS") * lumens_per_watt, 5000, 1e-9);
+}
+
+TEST_F(LayerMaps, ReversedMeshesTurnTheirNormalsToo)
+{
+    auto mesh = std::make_shared<Mesh>();
+    mesh->points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh->triangles = {0, 1, 2};
+    mesh->normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    imported_.scene.root.add_mesh(mesh, keys_.modifier_for(on("LAMPS")), "m");
+    apply("[[rule]]\nlayer = \"LAMPS\"\nuse = \"lamp\"\nside = \"back\"\n");
+    const Mesh& turned = *imported_.scene.root.meshes.at(0);
+    EXPECT_EQ(turned.triangles, (std::vector<std::uint32_t>{0, 2, 1}));
+    EXPECT_EQ(turned.normals[0], (Direction{0, 0, -1}));
+    EXPECT_EQ(mesh->normals[0], (Direction{0, 0, 1})) << "the file's mesh is shared and stays";
+}
+
+TEST_F(LayerMaps, EmittersOfTheFileKeepTheirSide)
+{
+    imported_.file_materials.emplace_back("Glow", Light{Spectrum::grey(10)});
+    SurfaceKey key = on("panel");
+    key.material = "Glow";
+    face(key);
+    apply("");
+    EXPECT_EQ(imported_.scene.root.polygons.size(), 1u);
+    EXPECT_NEAR(radiance_of("panel"), 10, 1e-12);
+}
+
+TEST_F(LayerMaps, BadMapsAreRefusedWithFileAndLine)
+{
+    face(on("A-WALL"));
+    face(on("A-FLOR"));
+    struct Bad {
+        const char *text, *place, *words;
+    };
+    for (const Bad& bad : std::initializer_list<Bad>{
+             {"default = 3\n", "map.toml:1", "default is 3"},
+             {"[[rule]\n", "map.toml:1", "TOML"},
+             {"defualt = \"oak\"\n", "map.toml:1", "nearest: default"},
+             {"\n[[rule]]\nlayer = \"A-WALL\"\n", "map.toml:2", "which material"},
+             {"[[rule]]\nuse = \"oak\"\n", "map.toml:1", "for no surface"},
+             {"[[rule]]\nlayer = \"\"\nuse = \"oak\"\n", "map.toml:2", "empty"},
+             {"[[rule]]\nlayers = \"A\"\nuse = \"oak\"\n", "map.toml:2", "nearest: layer"},
+             {"[[rule]]\nlayer = \"A-WALL\"\nuse = \"oak\"\nside = \"left\"\n", "map.toml:4", "\"back\""},
+             {"[[rule]]\ncolour = \"red\"\nuse = \"oak\"\n", "map.toml:2", "#rrggbb"},
+             {"[[rule]]\nlayer = \"A-WALL\"\nuse = \"oka\"\n", "map.toml:1", "oak"},
+             {"[[rule]]\nlayer = \"NOWHERE\"\nuse = \"oka\"\n", "map.toml:1", "unknown material"},
+             {"[[rule]]\nlayer = \"A-WALL\"\nuse = \"file:oak\"\n", "map.toml:1", "unknown material \"file:oak\""},
+             {"default = \"nothing_such\"\n", "map.toml", "nothing_such"},
+             {"[[rule]]\nlayer = \"A-WALLS\"\nuse = \"oak\"\n", "map.toml:1", "A-WALL"},
+             {"[[rule]]\nlayer = \"A-WALL\"\nblock = \"B\"\nuse = \"oak\"\n", "map.toml:1", "no surface a block"},
+             {"[[rule]]\nlayer = \"A-WALL\"\nentity = \"LINE\"\nuse = \"oak\"\n", "map.toml:1", "3DFACE"},
+         }) {
+        const std::string message = complaint(bad.text);
+        EXPECT_NE(message.find(bad.place), std::string::npos) << bad.text << "-> " << message;
+        EXPECT_NE(message.find(bad.words), std::string::npos) << bad.text << "-> " << message;
+    }
+    EXPECT_THROW(read_layer_map(folder_ / "absent.toml"), InputError);
+}
+
+TEST_F(LayerMaps, WordsThatFitOnlyApartAreNamedTogether)
+{
+    SurfaceKey lamp = on("LAMP");
+    lamp.block = "B";
+    face(lamp);
+    face(on("WALL"));
+    const std::string message = complaint("[[rule]]\nlayer = \"WALL\"\nblock = \"B\"\nuse = \"oak\"\n");
+    EXPECT_NE(message.find("no surface has layer = \"WALL\", block = \"B\" together"), std::string::npos) << message;
+}
+
+TEST_F(LayerMaps, RulesWithoutEffectAreNoted)
+{
+    face(on("A-WALL"));
+    apply("[[rule]]\nlayer = \"A-WALL\"\nuse = \"oak\"\nside = \"front\"\n[[rule]]\nlayer = \"*\"\nuse = \"pine\"\n");
+    EXPECT_EQ(material_of("A-WALL"), "pine");
+    ASSERT_TRUE(imported_.report.has(Finding::unused));
+    EXPECT_EQ(imported_.report.notes().size(), 2u) << "the rule, and the side of what does not emit";
+}
+
+TEST_F(LayerMaps, AnEmptyFileAndAnEmptyMapAreNoTrouble)
+{
+    apply("");
+    EXPECT_TRUE(imported_.scene.modifiers.empty());
+    EXPECT_TRUE(summarize_layers(imported_).empty());
+}
+
+TEST_F(LayerMaps, TheProposedMapReadsBackAndGivesTheProposedMaterials)
+{
+    imported_.file_materials.emplace_back("glow\"ing", Light{Spectrum::grey(3)});
+    imported_.file_materials.emplace_back("stuff", Plastic{Spectrum::grey(0.4), 0, 0});
+    const std::vector<std::string> layers{"A-WALL-FULL", "Türen \"neu\"", "a*b?c[d]e", "x..y",  "墙", "back\\slash",
+                                          "A-GLAZ",      "nothing",       "tab\there", "oak..", "[["};
+    for (const std::string& layer : layers)
+        face(on(layer));
+    SurfaceKey lamp = on("nothing");
+    lamp.material = "glow\"ing";
+    face(lamp);
+    SurfaceKey stuff = on("thing");
+    stuff.material = "stuff";
+    face(stuff);
+    const std::string text = propose_layer_map(imported_);
+    apply(text);
+    EXPECT_EQ(material_of("A-WALL-FULL"), "generic_wall") << text;
+    EXPECT_EQ(material_of("Türen \"neu\""), "light_wood");
+    EXPECT_EQ(material_of("墙"), "generic_wall");
+    EXPECT_EQ(material_of("A-GLAZ"), "glass_double_clear");
+    EXPECT_EQ(material_of("oak.."), "oak");
+    EXPECT_EQ(material_of("nothing/grey_50"), "grey_50");
+    EXPECT_EQ(material_of("thing"), "stuff");
+    EXPECT_NE(imported_.scene.find_modifier("nothing/glow\"ing.half"), void_modifier);
+    EXPECT_NE(text.find("1 surface, 1 m2"), std::string::npos) << text;
+    EXPECT_FALSE(imported_.report.has(Finding::unmapped));
+}
+
+} // namespace
+} // namespace lightwell
