@@ -253,6 +253,61 @@ class Outputs(Case):
         self.assertLess(record["median_relative_error"], 0.02 * 1.5)  # an error found from few replicates is itself uncertain
 
 
+class Project(Case):
+    TEXT = """
+[inputs]
+files = ["room.rad"]
+[[view]]
+name = "corner"
+text = "%s"
+size = [64, 48]
+[[grid]]
+name = "floor"
+on = "plane:0.8,0,0,4,3"
+spacing = 1
+[wish]
+samples = 8
+[output]
+folder = "results"
+""" % VIEW
+
+    def test_all_views_and_grids_are_made_and_a_line_printed_for_each(self):
+        self.write("project.toml", self.TEXT)
+        done = self.expect(DONE, "run", "project.toml")
+        self.assertEqual(len(done.stdout.splitlines()), 2, done.stdout)
+        made = sorted(p.name for p in (self.folder / "results").iterdir())
+        self.assertEqual(made, ["corner.exr", "corner.png", "corner.run.json", "floor.csv", "floor.exr", "floor.png",
+                                "floor.run.json"])
+
+    def test_only_and_output_choose_what_is_made_and_where(self):
+        self.write("project.toml", self.TEXT)
+        self.expect(DONE, "run", "project.toml", "--only", "floor", "-o", "elsewhere")
+        made = sorted(p.name for p in (self.folder / "elsewhere").iterdir())
+        self.assertEqual(made, ["floor.csv", "floor.exr", "floor.png", "floor.run.json"])
+        self.expect(BAD_INPUT, "run", "project.toml", "--only", "attic", says=["project.toml", "nothing to make"])
+
+    def test_two_scenes_add_their_light(self):
+        """Two equal discs, each of E = pi L sin^2 at the point between them."""
+        for name in ("a", "b"):
+            self.write(f"{name}.rad", f"void light l 0 0 3 20 20 20\nl ring {name} 0 0 8 0 0 2 0 0 -1 0 0.5\n")
+        self.write("b.rad", "void light l 0 0 3 20 20 20\nl ring b 0 0 8 0 0 -2 0 0 1 0 0.5\n")
+        self.write("points.txt", "0 0 0 0 0 1\n0 0 0 0 0 -1\n")
+        self.write("project.toml", '[inputs]\nfiles = ["a.rad", "b.rad"]\n[[grid]]\nname = "e"\n'
+                   'on = "file:points.txt"\n[wish]\nsamples = 1024\n[output]\nfolder = "."\n')
+        self.expect(DONE, "run", "project.toml")
+        with open(self.folder / "e.csv") as file:
+            values = [float(row["illuminance_lx"]) for row in csv.DictReader(file)]
+        for value in values:
+            self.assertAlmostEqual(value / (math.pi * 179 * 20 * 0.25 / 4.25), 1, delta=0.02)
+
+    def test_faults_of_a_project_are_named_with_their_line(self):
+        self.write("project.toml", self.TEXT.replace("spacing", "spacign"))
+        self.expect(BAD_INPUT, "run", "project.toml", says=["project.toml:11", "spacign"])
+        self.write("project.toml", self.TEXT.replace('"floor"', '"corner"'))
+        self.expect(BAD_INPUT, "run", "project.toml", says=["two results", "corner"])
+        self.expect(BAD_INPUT, "run", "gone.toml", says=["gone.toml"])
+
+
 class Interruption(Case):
     WORDS = ("render", "room.rad", "--view", VIEW, "-o", "p.exr", "--samples", "64", "--size", "128x96", "--seed", "7")
 
