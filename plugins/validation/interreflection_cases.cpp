@@ -31,13 +31,12 @@ Case sphere_case(const std::string& id, double radius, double reflectance, const
         const std::string name = numbered("p", number);
         result.references.emplace_back(name, expected);
         Check check = illuminance_check(name, expected, accepted, {place * radius, -place});
-        constexpr double long_paths = 0.95; // many reflections: one sensor is enough for a quick look
-        check.only_full = reflectance > long_paths && number != 1;
+        // Many reflections are dear: one sensor is enough for a quick look, coarsely where paths are very long.
+        constexpr double short_paths = 0.5, long_paths = 0.95, mostly_reflected = 0.8;
+        check.only_full = reflectance > short_paths && number != 0;
         check.quick_relative = reflectance > long_paths ? 0.02 : 0.01;
-        constexpr double mostly_reflected = 0.8;
-        setup.checks.push_back(number == 0 && reflectance < long_paths && indirect > mostly_reflected * expected
-                                   ? detecting(check)
-                                   : check);
+        const bool telling = number == 0 && reflectance < long_paths && indirect > mostly_reflected * expected;
+        setup.checks.push_back(telling ? detecting(check) : check);
         ++number;
     }
     result.setups.push_back(setup);
@@ -68,8 +67,8 @@ Case planes_case(const std::string& id, double reflectance1, double reflectance2
                     illuminance_check("E_on_1", e.on_first, accepted, {{0, 0, 0}, {0, 0, 1}})};
     for (Check& check : setup.checks)
         check.quick_relative = quick_relative;
-    constexpr double short_paths = 0.5;
-    if (reflectance1 * reflectance2 < short_paths)
+    constexpr double lets_much_in = 0.5;
+    if (passed >= lets_much_in)
         setup.checks[1] = detecting(setup.checks[1]); // all of it has been reflected
     Case result{id, Technique::sky | Technique::interreflection, {setup}};
     result.references = {{"E_on_2", e.on_second},

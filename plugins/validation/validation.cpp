@@ -1,6 +1,7 @@
 #include "plugins/validation/validation.h"
 
 #include "engine/base/errors.h"
+#include "engine/base/nearest.h"
 #include "engine/base/threads.h"
 #include "plugins/validation/measure.h"
 
@@ -62,7 +63,7 @@ std::vector<ValidationRow> run(const Task& task, const ValidationOptions& option
     for (const Check& check : task.setup->checks) {
         if (progress.stop())
             throw Cancelled{};
-        if (options.full || !check.only_full)
+        if ((options.full || !check.only_full) && (check.detection || !options.only_detection))
             rows.push_back(run_check(simulation, check, options));
     }
     return rows;
@@ -87,6 +88,14 @@ std::vector<ValidationRow> run_safely(const Task& task, const ValidationOptions&
         row.techniques = task.from->techniques;
     }
     return rows;
+}
+
+std::vector<std::string> case_names(const std::vector<Case>& cases)
+{
+    std::vector<std::string> found;
+    for (const Case& c : cases)
+        found.push_back(c.id);
+    return found;
 }
 
 } // namespace
@@ -123,9 +132,12 @@ std::vector<ValidationRow> validate_engine(const ValidationOptions& options, con
             continue;
         for (const Setup& setup : c.setups)
             tasks.push_back({&c, &setup, {}});
-        if (c.count)
+        if (c.count && !options.only_detection)
             tasks.push_back({&c, nullptr, {}});
     }
+    if (tasks.empty())
+        throw InputError{"--case " + options.only, "is in the name of no case",
+                         nearest_hint(options.only, case_names(cases))};
     std::size_t done = 0;
     std::mutex telling;
     // Backwards: the last cases take longest.

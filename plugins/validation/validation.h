@@ -27,6 +27,7 @@ struct ValidationOptions {
     bool full = false;                  ///< the tolerances of the cases, detection rows to a standard error of 0.1 %
     std::optional<Technique> perturb{}; ///< self-test: 2 % wrong in the scene that is run, not in what is expected
     std::string only{};                 ///< run the cases whose id contains this
+    bool only_detection = false;        ///< run only the rows that notice an error of 2 %
     int threads = 0;                    ///< 0: all processors; the result does not depend on it
     std::uint64_t seed = 1;
 };
@@ -38,7 +39,7 @@ struct ValidationRow {
     double half_width_95 = 0; ///< of the 95 % interval around `found`
     double tolerance = 0;     ///< in the unit of the row
     unsigned techniques = 0;  ///< of Technique
-    bool detection = false;   ///< fine enough to notice 2 % in any technique it contains by definition of the row
+    bool detection = false;   ///< fine enough to notice an error of 2 % in each technique it contains
     bool passed = false;
     std::string reason; ///< why it did not pass
 
@@ -47,7 +48,7 @@ struct ValidationRow {
 
 /// Runs the cases through the engine. A case that cannot run becomes a row that has not passed, with the reason.
 /// A row passes when |found - expected| <= tolerance + 3 standard errors and the standard error <= tolerance / 3.
-/// @throws Cancelled when progress says stop
+/// @throws InputError when no case is chosen, Cancelled when progress says stop
 std::vector<ValidationRow> validate_engine(const ValidationOptions& options, const Progress& progress = {});
 bool all_passed(const std::vector<ValidationRow>& rows);
 /// The rows as a table for people, with a last line that counts.
