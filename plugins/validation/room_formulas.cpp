@@ -3,8 +3,6 @@
 #include "engine/base/vector.h"
 #include "plugins/validation/quadrature.h"
 
-#include <algorithm>
-
 namespace lightwell {
 
 double sphere_indirect(double radius, double reflectance, double flux_lm)
@@ -82,42 +80,6 @@ double sky_cone(SkyGradation sky, double half_angle_rad)
 {
     const double c = std::cos(half_angle_rad), uniform = pi * (1 - c * c);
     return sky == SkyGradation::uniform ? uniform : (uniform + 4 * pi / 3 * (1 - c * c * c)) / 3;
-}
-
-namespace {
-
-/// Integral over azimuth of the cosine against the plane's normal, where it is positive.
-double cosine_around(double tilt_rad, double altitude_rad)
-{
-    const double a = std::cos(tilt_rad) * std::sin(altitude_rad), b = std::sin(tilt_rad) * std::cos(altitude_rad);
-    if (a >= b)
-        return 2 * pi * a;
-    if (a <= -b)
-        return 0;
-    const double limit = std::acos(-a / b);
-    return 2 * (a * limit + b * std::sin(limit));
-}
-
-} // namespace
-
-double horizon_blend(SkyGradation sky, double tilt_rad, double below_rad)
-{
-    const double lowest = std::max(-0.5 * pi, 0.5 * pi - below_rad);
-    double sum = 0;
-    const auto add = [&](double from, double to) {
-        constexpr int panels = 64, nodes = 8;
-        for (int panel = 0; from < to && panel < panels; ++panel)
-            for (const QuadratureNode& node : gauss_legendre(nodes, from + (to - from) * panel / panels,
-                                                             from + (to - from) * (panel + 1) / panels)) {
-                const double h = std::sin(node.x), power = std::pow(h + 1.01, 20);
-                const double luminance = sky == SkyGradation::uniform ? 1 : (1 + 2 * h) / 3;
-                const double change = node.x > 0 ? -luminance / (1 + power) : luminance * power / (1 + power);
-                sum += node.weight * std::cos(node.x) * change * cosine_around(tilt_rad, node.x);
-            }
-    };
-    add(lowest, 0);
-    add(std::max(lowest, 0.0), 0.5 * pi);
-    return sum;
 }
 
 } // namespace lightwell

@@ -46,9 +46,5 @@ enum class SkyGradation { uniform, overcast };
 double tilted_plane(SkyGradation sky, double tilt_rad);
 /// The same at the middle of the base of a cone of sky around the zenith: a point below a round opening.
 double sky_cone(SkyGradation sky, double half_angle_rad);
-/// What changes on a tilted plane when sky and (black) ground blend over the horizon as the scene language has it.
-/// @param below_rad  the part of the sky that is seen: angles from the zenith up to this one
-/// Source  the factor (h + 1.01)^20 / (1 + (h + 1.01)^20), h the sine of the altitude; by quadrature over altitude
-double horizon_blend(SkyGradation sky, double tilt_rad, double below_rad);
 
 } // namespace lightwell
