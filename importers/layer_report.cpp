@@ -34,6 +34,15 @@ std::string padded(const std::string& text, std::size_t columns)
     return text + std::string(used < columns ? columns - used : 0, ' ');
 }
 
+/// Before a layer map is applied a scene holds no materials, and the column shows proposals.
+const char* material_heading(const Scene& scene)
+{
+    const bool chosen = std::any_of(scene.modifiers.begin(), scene.modifiers.end(), [](const Modifier& modifier) {
+        return std::holds_alternative<Material>(modifier.what);
+    });
+    return chosen ? "material" : "proposed material";
+}
+
 std::string skipped_text(const Ledger& ledger)
 {
     std::string text = fmt::format("{} entities read, {} made into surfaces, {} skipped\n", ledger.read_count(),
@@ -76,7 +85,8 @@ std::string layers_table(const Imported& imported)
     std::size_t width = columns_of("layer");
     for (const LayerSummary& layer : layers)
         width = std::max(width, columns_of(layer.name));
-    std::string text = fmt::format("{}  {:>10}  {:>12}  material\n", padded("layer", width), "surfaces", "area m2");
+    std::string text = fmt::format("{}  {:>10}  {:>12}  {}\n", padded("layer", width), "surfaces", "area m2",
+                                   material_heading(imported.scene));
     for (const LayerSummary& layer : layers)
         text += fmt::format("{}  {:>10}  {:>12.6g}  {}\n", padded(layer.name, width), layer.surfaces, layer.area_m2,
                             layer.material.empty() ? "-" : layer.material);

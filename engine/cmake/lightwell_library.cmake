@@ -18,7 +18,9 @@ add_library(lightwell_flags INTERFACE)
 target_compile_options(lightwell_flags INTERFACE
     -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(LIGHTWELL_SANITIZE)
-    target_compile_options(lightwell_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all)
+    # g++ 12 warns of values that are not there (std::optional, std::string +) in the code its own checks are added to.
+    target_compile_options(lightwell_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+        -Wno-maybe-uninitialized -Wno-restrict)
     target_link_options(lightwell_flags INTERFACE -fsanitize=address,undefined)
 endif()
 

@@ -104,7 +104,7 @@ SourceSample DirectLight::sky_sample(const SourceShares& shares, double choice, 
 void DirectLight::sky(const Task& task, PathRandom& random, SourceShares& shares) const
 {
     shares.portals = sources_.guide().portal_shares(shares.from, shares.normal, shares.transmits);
-    shares.portal_share = shares.portals.total() > 0 ? shares.portals.cell->portal_share : 0;
+    shares.portal_share = shares.portals.portal_share;
     const double offset = random.one();
     for (int k = 0; k < shares.sky_rays; ++k) {
         const SourceSample sample = sky_sample(shares, (k + offset) / shares.sky_rays, random.pair());

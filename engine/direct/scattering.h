@@ -9,21 +9,23 @@
 namespace lightwell {
 
 /// How a path goes on from a vertex: by the surface's own lobes, or, from diffuse surfaces, towards places that are
-/// known to be bright. One density covers both.
+/// known to be bright. One density covers them all.
 class Scattering {
 public:
     Scattering(const Vertex& vertex, const Guide& guide);
 
     /// Density of sample() per solid angle; single directions excluded.
     double density_per_sr(const Direction& world, const Direction& local) const noexcept;
-    /// Local frame; the weight includes the choice between the two ways.
+    /// Local frame; the weight includes the choice between the ways.
     std::optional<BsdfSample> sample(PathRandom& random) const;
 
 private:
     const Vertex& vertex_;
     const Guide& guide_;
-    Guide::Shares patches_;
-    double guided_share_ = 0;
+    double guided_density_per_sr(const Direction& world) const noexcept;
+
+    Guide::Shares patches_, outlooks_;
+    double patch_share_ = 0, outlook_share_ = 0, own_share_ = 1;
 };
 
 } // namespace lightwell

@@ -17,12 +17,14 @@ constexpr double cells_a_side = 48;
 constexpr int points_a_cell = 8, sky_rays_a_point = 16;
 /// Rays of the sun sent through the panes, and how finely their hits are gathered: parts of the scene's diagonal.
 constexpr int sun_rays = 8192;
-constexpr double patch_size = 1.0 / 64;
+constexpr double patch_size = 1.0 / 40;
 constexpr std::size_t most_patches = 256;
 /// Neither the panes nor the open sky are ever left without rays where both can be seen.
 constexpr double least_share = 0.1;
 /// Receivers turned away still get some rays: their cosine is that of the opening's middle only.
 constexpr double least_cosine = 0.05;
+/// A ray to a pane is followed this much farther, to be through it.
+constexpr double beyond_pane = 1.001;
 
 Point point_in(const Point& low, const Vec3& size, RandomStream& random)
 {
@@ -88,8 +90,10 @@ struct Guide::Lattice {
 };
 
 Guide::Guide(const Scene& scene, const RayQueries& rays, const SkySource& sky, const std::vector<SunSource>& suns)
-    : rays_(rays), sky_(sky), portals_(find_portals(scene))
+    : rays_(rays), sky_(sky), suns_(suns), portals_(find_portals(scene))
 {
+    for (std::size_t i = 0; i < scene.modifiers.size(); ++i)
+        materials_.push_back(resolve(scene, static_cast<ModifierId>(i)).material);
     const Box box = bounds(scene);
     if (portals_.empty() || !(box.diagonal() > 0))
         return;
@@ -162,10 +166,28 @@ void Guide::learn(const Point& low, const Vec3& size, std::uint64_t key, Cell& c
     learn_patches(low, size, key, cell);
 }
 
+/// Roughly how bright a direction is outside: the sky, or a surface in the sun and under half of the sky.
+Spectrum Guide::seen_outside(const Point& beyond, const Direction& direction) const
+{
+    Hit hit;
+    if (!rays_.closest({beyond, direction, infinity}, hit))
+        return sky_.radiance(direction);
+    Spectrum falling = sky_.empty() ? Spectrum{} : Spectrum::grey(0.5 * pi * sky_.mean_radiance());
+    const double side = dot(hit.normal, direction) <= 0 ? 1 : -1;
+    for (const SunSource& sun : suns_) {
+        const Direction& to_sun = sun.disc.to_source;
+        const double cosine = side * dot(hit.normal, to_sun);
+        if (cosine > 0)
+            falling += sun.radiance * rays_.transmittance({hit.leave(to_sun), to_sun, infinity}) *
+                       (cosine * cone_solid_angle_sr(0.5 * sun.disc.full_angle_deg * radians_per_degree));
+    }
+    return falling * typical_reflectance(*materials_[static_cast<std::size_t>(hit.modifier)]) / pi;
+}
+
 void Guide::learn_portals(const Point& low, const Vec3& size, std::uint64_t key, Cell& cell) const
 {
     RandomStream random(1, key, 0);
-    std::vector<double> weights(portals_.size());
+    std::vector<double> weights(portals_.size()), outlooks(portals_.size());
     double through_panes = 0, open = 0;
     for (int i = 0; i < points_a_cell; ++i) {
         const Point at = point_in(low, size, random);
@@ -175,9 +197,17 @@ void Guide::learn_portals(const Point& low, const Vec3& size, std::uint64_t key,
                 continue;
             // Nearer than the pane is wide, a sample by area says little: no single one may count for all.
             const double solid_angle = std::min(1 / d.density_per_sr, 2 * pi);
-            const Spectrum light = sky_.radiance(d.direction) * rays_.transmittance({at, d.direction, infinity});
-            weights[k] += photopic(light) * solid_angle;
-            through_panes += photopic(light) * solid_angle;
+            const double to_pane =
+                dot(portals_[k].normal, portals_[k].corner - at) / dot(portals_[k].normal, d.direction);
+            const Ray way{at, d.direction, to_pane * beyond_pane};
+            const Spectrum passing = rays_.transmittance(way);
+            if (passing.is_black())
+                continue;
+            const Point outside = at + d.direction * way.t_max;
+            outlooks[k] += photopic(passing * seen_outside(outside, d.direction)) * solid_angle;
+            const Spectrum sky = sky_.radiance(d.direction) * rays_.transmittance({outside, d.direction, infinity});
+            weights[k] += photopic(passing * sky) * solid_angle;
+            through_panes += photopic(passing * sky) * solid_angle;
         }
         for (int k = 0; k < sky_rays_a_point; ++k) {
             const SourceSample s = sky_.sample(random.square());
@@ -189,6 +219,7 @@ void Guide::learn_portals(const Point& low, const Vec3& size, std::uint64_t key,
         }
     }
     cell.portal_count = keep_largest(weights, cell.portals);
+    cell.outlook_count = keep_largest(outlooks, cell.outlooks);
     if (cell.portal_count > 0)
         cell.portal_share = std::clamp(through_panes / (through_panes + open), least_share, 1 - least_share);
 }
@@ -212,11 +243,26 @@ void Guide::learn_patches(const Point& low, const Vec3& size, std::uint64_t key,
 
 Guide::Shares Guide::portal_shares(const Point& at, const Direction& normal, bool transmits) const
 {
+    const Cell& here = cell(at);
+    Shares shares = shares_of(here.portals, here.portal_count, at, normal, transmits);
+    shares.portal_share = shares.total() > 0 ? here.portal_share : 0;
+    return shares;
+}
+
+Guide::Shares Guide::outlook_shares(const Point& at, const Direction& normal) const
+{
+    const Cell& here = cell(at);
+    return shares_of(here.outlooks, here.outlook_count, at, normal, false);
+}
+
+Guide::Shares Guide::shares_of(const Entry* entries, std::size_t count, const Point& at, const Direction& normal,
+                               bool transmits) const
+{
     Shares shares;
-    shares.cell = &cell(at);
+    shares.entries = entries;
     double sum = 0;
-    for (std::size_t i = 0; i < shares.cell->portal_count; ++i) {
-        const Entry& entry = shares.cell->portals[i];
+    for (std::size_t i = 0; i < count; ++i) {
+        const Entry& entry = entries[i];
         const Portal& p = portals_[entry.index];
         sum += entry.share * (transmits ? 1 : receiver_cosine(p.centre - at, p.radius_m, normal));
         shares.summed[shares.count++] = sum;
@@ -230,7 +276,7 @@ SampledDirection Guide::sample_portal(const Shares& shares, const Point& from, U
         return {};
     double left = 0;
     const std::size_t at = pick(shares, u.u, left);
-    const SampledDirection d = portals_[shares.cell->portals[at].index].sample(from, {left, u.v});
+    const SampledDirection d = portals_[shares.entries[at].index].sample(from, {left, u.v});
     return {d.direction, d.density_per_sr > 0 ? portal_density_per_sr(shares, from, d.direction) : 0};
 }
 
@@ -238,17 +284,18 @@ double Guide::portal_density_per_sr(const Shares& shares, const Point& from, con
 {
     double density = 0;
     for (std::size_t i = 0; i < shares.count; ++i)
-        density += shares.share(i) * portals_[shares.cell->portals[i].index].density_per_sr(from, direction);
+        density += shares.share(i) * portals_[shares.entries[i].index].density_per_sr(from, direction);
     return shares.count == 0 ? 0 : density / shares.total();
 }
 
 Guide::Shares Guide::patch_shares(const Point& at, const Direction& normal) const
 {
     Shares shares;
-    shares.cell = &cell(at);
+    const Cell& here = cell(at);
+    shares.entries = here.patches;
     double sum = 0;
-    for (std::size_t i = 0; i < shares.cell->patch_count; ++i) {
-        const Entry& entry = shares.cell->patches[i];
+    for (std::size_t i = 0; i < here.patch_count; ++i) {
+        const Entry& entry = here.patches[i];
         const Patch& patch = patches_[entry.index];
         const Vec3 way = patch.centre - at;
         // Within or beside the patch there is no cone to aim at.
@@ -264,7 +311,7 @@ SampledDirection Guide::sample_patch(const Shares& shares, const Point& from, Un
     if (!(shares.total() > 0))
         return {};
     double left = 0;
-    const Patch& patch = patches_[shares.cell->patches[pick(shares, u.u, left)].index];
+    const Patch& patch = patches_[shares.entries[pick(shares, u.u, left)].index];
     const SampledDirection d = sphere_seen_from(from, patch.centre, patch.radius_m, {left, u.v});
     return {d.direction, patch_density_per_sr(shares, from, d.direction)};
 }
@@ -276,7 +323,7 @@ double Guide::patch_density_per_sr(const Shares& shares, const Point& from, cons
         const double share = shares.share(i);
         if (!(share > 0))
             continue;
-        const Patch& patch = patches_[shares.cell->patches[i].index];
+        const Patch& patch = patches_[shares.entries[i].index];
         const Vec3 way = patch.centre - from;
         const double squared = dot(way, way), along = dot(way, direction), r2 = patch.radius_m * patch.radius_m;
         // Within the cone that touches the ball: along / |way| >= sqrt(1 - r^2 / |way|^2).

@@ -36,8 +36,8 @@ Spectrum distant_radiance(const Scene& scene, const DistantSource& source, Modif
     if (resolved.brightness == nullptr)
         return radiance;
     const SkyBrightness& b = *resolved.brightness;
-    return radiance *
-           sky_brightness(static_cast<int>(b.kind), b.zenith, b.ground, b.normalization, b.to_sun, direction, b.sharp_horizon);
+    return radiance * sky_brightness(static_cast<int>(b.kind), b.zenith, b.ground, b.normalization, b.to_sun, direction,
+                                     b.sharp_horizon);
 }
 
 SkySource::SkySource(const Scene& scene, std::vector<const Surface*> wide) : scene_(&scene), wide_(std::move(wide))

@@ -20,7 +20,7 @@ public:
     Spectrum radiance(const Direction& direction) const noexcept;
     SourceSample sample(UnitSquare u) const noexcept;
     double density_per_sr(const Direction& direction) const noexcept;
-    double mean_luminance() const noexcept { return mean_; }
+    double mean_radiance() const noexcept { return mean_; }
 
 private:
     std::size_t cell(const Direction& direction) const noexcept;

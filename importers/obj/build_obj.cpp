@@ -3,9 +3,10 @@
 #include "engine/base/box.h"
 #include "engine/base/random.h"
 #include "engine/base/text.h"
-#include "importers/obj/triangulate.h"
+#include "engine/geometry/triangulate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -23,6 +24,12 @@ constexpr double zero_area_tolerance = 1e-14;
 constexpr double same_normal = 1e-6;
 /// A common normal this near to the face's own is the face's own, written with three or four decimals.
 constexpr double face_normal_tolerance = 1e-3;
+/// Cutting ears takes time that grows with the cube of the corners at worst: 1024 corners take about a second.
+constexpr std::size_t most_corners_for_ears = 1024;
+/// Ears of an outline that does not cross itself cover its area within rounding; a crossing one misses far more.
+constexpr double covered_area_tolerance = 1e-9;
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 struct CornerHash {
     std::size_t operator()(const ObjCorner& c) const noexcept
@@ -53,6 +60,29 @@ struct Outline {
     bool has_area() const { return length(area) > zero_area_tolerance * diameter_m * diameter_m; }
     bool planar() const { return deviation_m <= planar_tolerance * diameter_m; }
 };
+
+Triangles fan(std::size_t count)
+{
+    Triangles triangles;
+    for (std::uint32_t i = 1; i + 1 < count; ++i)
+        triangles.push_back({0, i, i + 1});
+    return triangles;
+}
+
+/// Cuts an outline that is not planar ear by ear as seen along its area vector; one that crosses itself, or has too
+/// many corners for that, becomes a fan from its first corner.
+Triangles cut(const Outline& outline)
+{
+    const std::vector<Point>& points = outline.points;
+    if (points.size() > most_corners_for_ears || !outline.has_area())
+        return fan(points.size());
+    Triangles ears = triangulate(points.data(), points.size());
+    Vec3 covered;
+    for (const auto& [a, b, c] : ears)
+        covered += 0.5 * cross(points[b] - points[a], points[c] - points[a]);
+    const double missed = 1 - dot(covered, outline.area) / dot(outline.area, outline.area);
+    return std::fabs(missed) <= covered_area_tolerance ? ears : fan(points.size());
+}
 
 /// Stable over re-import: the number of the `f` statement in the file.
 std::string face_name(std::uint32_t number)
@@ -224,19 +254,18 @@ void ObjBuilder::add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& 
     const double least_area_m2 = zero_area_tolerance * outline_.diameter_m * outline_.diameter_m;
     std::vector<std::uint32_t> mesh_points(outline_.points.size(), not_yet);
     bool any = false;
-    const std::vector<std::uint32_t> triangles = triangulate(outline_.points);
-    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-        const Point& a = outline_.points[triangles[i]];
-        const Vec3 twice_area = cross(outline_.points[triangles[i + 1]] - a, outline_.points[triangles[i + 2]] - a);
+    for (const auto& triangle : cut(outline_)) {
+        const Point& a = outline_.points[triangle[0]];
+        const Vec3 twice_area = cross(outline_.points[triangle[1]] - a, outline_.points[triangle[2]] - a);
         if (!(0.5 * length(twice_area) > least_area_m2))
             continue;
         const auto [entry, fresh] = meshes.try_emplace(face.state);
         if (fresh)
             entry->second.first_face = face.number;
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::uint32_t& point = mesh_points[triangles[i + k]];
+        for (const std::uint32_t corner : triangle) {
+            std::uint32_t& point = mesh_points[corner];
             if (point == not_yet)
-                point = mesh_point(entry->second, triangles[i + k], with_normals);
+                point = mesh_point(entry->second, corner, with_normals);
             entry->second.mesh.triangles.push_back(point);
         }
         any = true;

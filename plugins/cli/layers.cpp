@@ -1,7 +1,7 @@
 #include "importers/layers.h"
 #include "engine/base/files.h"
 #include "importers/formats/formats.h"
-#include "plugins/cli/layer_table.h"
+#include "importers/layer_report.h"
 #include "plugins/cli/options.h"
 #include "plugins/cli/subcommands.h"
 
@@ -26,10 +26,11 @@ constexpr const char* examples = R"(Examples:
   lightwell layers house.glb --json                   for programs
 Every entity of the file is accounted for: made into surfaces, or skipped for a reason that is named.)";
 
-bool lacks_material(const LayersOptions& options, const Imported& imported, const std::vector<LayerSummary>& layers)
+bool lacks_material(const LayersOptions& options, const Imported& imported)
 {
     if (!options.map.empty())
         return imported.report.has(Finding::unmapped);
+    const std::vector<LayerSummary> layers = summarize_layers(imported);
     return std::any_of(layers.begin(), layers.end(), [](const LayerSummary& layer) { return layer.material.empty(); });
 }
 
@@ -38,17 +39,11 @@ Status layers(const LayersOptions& options, std::ostream& out, std::ostream& err
     Imported imported = import_file(options.drawing, import_options(options.import));
     if (!options.proposal.empty())
         write_text_atomically(options.proposal, propose_layer_map(imported));
-    const bool assigned = !options.map.empty();
-    if (assigned)
+    if (!options.map.empty())
         apply_layer_map(imported, read_layer_map(options.map));
-    const std::vector<LayerSummary> summary = summarize_layers(imported);
-    if (options.json) {
-        print_layer_json(options.drawing, imported, summary, assigned, out);
-    } else {
-        print_layer_table(imported, summary, assigned, out);
-        err << imported.report;
-    }
-    return options.strict && lacks_material(options, imported, summary) ? Status::no : Status::done;
+    out << (options.json ? layers_json(imported, options.drawing) : layers_table(imported));
+    err << imported.report;
+    return options.strict && lacks_material(options, imported) ? Status::no : Status::done;
 }
 
 } // namespace

@@ -169,19 +169,19 @@ class Layers(Case):
     def test_json_lists_layers_with_areas_and_the_balance_of_entities(self):
         self.write("a.dxf", face_dxf(["A-FLOR", "A-GLAZ"]))
         found = json.loads(self.expect(DONE, "layers", "a.dxf", "--json").stdout)
-        self.assertEqual(list(found), ["file", "unit", "bounds_m", "entities", "layers", "notes"])
+        self.assertEqual(list(found), ["file", "unit", "bounds_m", "layers", "entities"])
         self.assertEqual([layer["name"] for layer in found["layers"]], ["A-FLOR", "A-GLAZ"])
         for layer in found["layers"]:
-            self.assertEqual(list(layer), ["name", "surfaces", "area_m2", "material", "assigned"])
-            self.assertEqual((layer["surfaces"], layer["assigned"]), (1, False))
+            self.assertEqual(list(layer), ["name", "surfaces", "area_m2", "material"])
+            self.assertEqual(layer["surfaces"], 1)
             self.assertAlmostEqual(layer["area_m2"], 1.0, places=12)
         self.assertEqual((found["entities"]["read"], found["entities"]["made"]), (2, 2))
-        self.assertEqual(found["bounds_m"], {"low": [0, 0, 0], "high": [3, 1, 0]})
+        self.assertEqual(found["bounds_m"], [[0, 0, 0], [3, 1, 0]])
 
     def test_unit_and_up_override_what_the_file_says(self):
         self.write("a.obj", OBJ)
         found = json.loads(self.expect(DONE, "layers", "a.obj", "--json", "--unit", "mm", "--up", "z").stdout)
-        self.assertEqual(found["bounds_m"], {"low": [0, 0, 0], "high": [2, 1, 0.5]})
+        self.assertEqual(found["bounds_m"], [[0, 0, 0], [2, 1, 0.5]])
         self.assertAlmostEqual(sum(layer["area_m2"] for layer in found["layers"]), 3.0, places=9)
         self.expect(BAD_INPUT, "layers", "a.obj", "--unit", "furlongish", says=["furlongish", "mm"])
 
@@ -189,7 +189,7 @@ class Layers(Case):
         self.write("a.dxf", face_dxf(["A-FLOR", "A-WALL", "A-GLAZ"]))
         self.expect(DONE, "layers", "a.dxf", "--propose", "map.toml")
         found = json.loads(self.expect(DONE, "layers", "a.dxf", "--map", "map.toml", "--strict", "--json").stdout)
-        self.assertTrue(all(layer["assigned"] and layer["material"] for layer in found["layers"]), found)
+        self.assertTrue(all(layer["material"] for layer in found["layers"]), found)
 
     def test_strict_is_a_no_when_a_layer_has_no_material(self):
         self.write("a.dxf", face_dxf(["A-FLOR", "XQZ17"]))

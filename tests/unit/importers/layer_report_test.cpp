@@ -119,6 +119,7 @@ TEST(LayersTable, ShowsEveryLayerWithAlignedColumns)
     KeyTable keys{imported};
     imported.scene.root.add_polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, keys.modifier_for(on("Wände")), "p");
     const std::string text = layers_table(imported);
+    EXPECT_NE(text.find("area m2  proposed material\n"), std::string::npos) << text;
     EXPECT_NE(text.find("A-WALL           2             4  generic_wall\n"), std::string::npos) << text;
     EXPECT_NE(text.find("Wände            1           0.5  generic_wall\n"), std::string::npos) << text;
     EXPECT_NE(text.find("9 entities read, 6 made into surfaces, 3 skipped\n"), std::string::npos) << text;

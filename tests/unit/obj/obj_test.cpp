@@ -266,6 +266,41 @@ TEST(Obj, AHugeConcaveOutlineThatIsWarpedIsCutInReasonableTime)
     EXPECT_EQ(noted(imported.report, "corners do not lie in one plane"), 1u);
 }
 
+TEST(Obj, AWarpedConcaveFaceIsCutWithoutCoveringItsNotch)
+{
+    // An L of 3 m2 with one corner 0.1 m above its plane: only triangles at that corner tilt. Seen from above they
+    // still cover the L once; a fan from a corner would cover the notch too.
+    const Imported found = import_text("# up: z\n# unit: m\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0.1\nv 0 0 0\n"
+                                       "f 1 2 3 4 5 6\n");
+    ASSERT_EQ(found.scene.root.meshes.size(), 1u);
+    const Mesh& mesh = *found.scene.root.meshes[0];
+    ASSERT_EQ(mesh.triangles.size(), 3u * 4);
+    double seen_m2 = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        const Point& a = mesh.points[mesh.triangles[i]];
+        const double twice = cross(mesh.points[mesh.triangles[i + 1]] - a, mesh.points[mesh.triangles[i + 2]] - a).z;
+        EXPECT_GT(twice, 0);
+        seen_m2 += 0.5 * twice;
+    }
+    EXPECT_NEAR(seen_m2, 3, 1e-12);
+}
+
+TEST(Obj, AWarpedFaceThatCrossesItselfKeepsItsAreaVector)
+{
+    // A pentagram with one raised tip: no set of ears covers it, and a fan has the outline's area vector at least.
+    const Imported found = import_text("# up: z\n# unit: m\nv 0 3 0.2\nv 2 -3 0\nv -3 1 0\nv 3 1 0\nv -2 -3 0\n"
+                                       "f 5 4 3 2 1\n");
+    ASSERT_EQ(found.scene.root.meshes.size(), 1u);
+    const Mesh& mesh = *found.scene.root.meshes[0];
+    double area_m2 = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+        area_m2 += 0.5 * cross(mesh.points[mesh.triangles[i + 1]] - mesh.points[mesh.triangles[i]],
+                               mesh.points[mesh.triangles[i + 2]] - mesh.points[mesh.triangles[i]])
+                             .z;
+    // Shoelace over (-2,-3), (3,1), (-3,1), (2,-3), (0,3): (-2+9) + (3+3) + (9-2) + 6 + 6 = 32, halved.
+    EXPECT_NEAR(area_m2, 16, 1e-12);
+}
+
 TEST(Obj, AFaceMayComeBeforeItsVerticesAndCommentsMayEndALine)
 {
     const Imported found = import_text("f 1 2 3 # before\nv 0 0 0 # a\nv 2 0 0\nv 0 2 0\ng Cube # inline\n");
