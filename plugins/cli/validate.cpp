@@ -76,7 +76,7 @@ void add_validate(CLI::App& app, Status& status)
     auto options = std::make_shared<ValidateOptions>();
     CLI::App& command = *app.add_subcommand("validate", "the engine against closed forms, as a table");
     CLI::Option* full = command.add_flag("--full", options->validation.full, "the tolerances of the cases; minutes");
-    command.add_flag("--quick", "tolerances of 1 %; the default")->excludes(full);
+    command.add_flag("--quick")->description("tolerances of 1 %; the default")->excludes(full);
     command.add_option("--case", options->validation.only, "only the cases whose name contains this")
         ->type_name("TEXT");
     command.add_option("--seed", options->validation.seed, "another seed, other noise")->type_name("N");

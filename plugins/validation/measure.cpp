@@ -52,6 +52,15 @@ Measurement measure(const Simulation& simulation, const Check& check, int sample
                       : measure_sensors(simulation, check, samples, seed);
 }
 
+/// Where a path ends in one of two ways, well-spread samples hit the share of each way to one sample, all replicates
+/// alike: their spread says nothing about that step, which must be small by itself.
+int first_samples(const Check& check, const ValidationOptions& options)
+{
+    if (check.view)
+        return options.full ? 1 << 19 : 1 << 16;
+    return 1 << 12;
+}
+
 /// More samples until the standard error is as wanted, or too dear.
 Measurement refine(const Simulation& simulation, const Check& check, double wanted_error,
                    const ValidationOptions& options)
@@ -59,7 +68,7 @@ Measurement refine(const Simulation& simulation, const Check& check, double want
     // A mean over many sensors needs few samples at each.
     const int share = static_cast<int>(std::bit_floor(std::max<std::size_t>(1, check.sensors.size())));
     const int most = std::max((options.full ? 1 << 26 : 1 << 22) / share, 64);
-    int samples = std::max((1 << 12) / share, 64);
+    int samples = std::max(first_samples(check, options) / share, 64);
     for (;;) {
         const Measurement found = measure(simulation, check, samples, options.seed);
         if (found.error <= wanted_error || samples >= most)

@@ -94,7 +94,8 @@ std::vector<std::string> case_names(const std::vector<Case>& cases)
 {
     std::vector<std::string> found;
     for (const Case& c : cases)
-        found.push_back(c.id);
+        if (found.empty() || found.back() != c.id)
+            found.push_back(c.id);
     return found;
 }
 
