@@ -20,8 +20,6 @@ struct Quantity {
 
 using Luminance = Quantity<struct CandelaPerSquareMetre>; ///< cd/m^2
 using Illuminance = Quantity<struct Lux>;                 ///< lx
-using LuminousFlux = Quantity<struct Lumen>;              ///< lm
-using LuminousIntensity = Quantity<struct Candela>;       ///< cd
 using Length = Quantity<struct Metre>;                    ///< m
 using MetresPerUnit = Quantity<struct MetrePerFileUnit>;  ///< m per drawing unit
 using InverseSolidAngle = Quantity<struct PerSteradian>;  ///< 1/sr

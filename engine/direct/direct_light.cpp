@@ -32,7 +32,6 @@ double shadow_ray_weight(double shadow_density, double scattered_density) noexce
 /// Gathering at one vertex.
 struct DirectLight::Task {
     const Vertex& vertex;
-    const Scattering& scattering;
     Gathered& sum;
 };
 
@@ -51,7 +50,7 @@ void DirectLight::add(const Task& task, const SourceSample& sample, double densi
     const Spectrum seen = rays_.transmittance(shadow_ray(vertex.hit, sample));
     if (seen.is_black())
         return;
-    const double scattered = found_by_scattering ? task.scattering.density_per_sr(sample.to_light, local) : 0;
+    const double scattered = found_by_scattering ? vertex.bsdf.density_per_sr(vertex.to_viewer, local) : 0;
     const double weight = shadow_ray_weight(density_per_sr, scattered);
     const Spectrum light = sample.radiance * seen * (weight * std::fabs(local.z) / density_per_sr);
     task.sum.radiance += light * value;
@@ -90,7 +89,7 @@ SourceSample DirectLight::sky_sample(const SourceShares& shares, double choice, 
 {
     SourceSample sample;
     if (choice < shares.portal_share) {
-        const SampledDirection d = sources_.guide().sample_portal(shares.portals, shares.from, u);
+        const SampledDirection d = sources_.guide().sample(shares.portals, shares.from, u);
         if (d.density_per_sr > 0)
             sample = {d.direction, infinity, 1, sources_.sky().radiance(d.direction)};
     } else {
@@ -103,7 +102,7 @@ SourceSample DirectLight::sky_sample(const SourceShares& shares, double choice, 
 
 void DirectLight::sky(const Task& task, PathRandom& random, SourceShares& shares) const
 {
-    shares.portals = sources_.guide().portal_shares(shares.from, shares.normal, shares.transmits);
+    shares.portals = sources_.guide().shares(shares.from, shares.normal, shares.transmits);
     shares.portal_share = shares.portals.portal_share;
     const double offset = random.one();
     for (int k = 0; k < shares.sky_rays; ++k) {
@@ -112,11 +111,10 @@ void DirectLight::sky(const Task& task, PathRandom& random, SourceShares& shares
     }
 }
 
-Gathered DirectLight::gather(const Vertex& vertex, const Scattering& scattering, int rays, PathRandom& random,
-                             SourceShares& shares) const
+Gathered DirectLight::gather(const Vertex& vertex, int rays, PathRandom& random, SourceShares& shares) const
 {
     Gathered sum;
-    const Task task{vertex, scattering, sum};
+    const Task task{vertex, sum};
     shares.from = vertex.hit.position;
     shares.normal = vertex.side;
     shares.transmits = vertex.transmits();
@@ -148,7 +146,7 @@ double DirectLight::sky_density(const SourceShares& shares, const Direction& dir
 {
     double density = (1 - shares.portal_share) * sources_.sky().density_per_sr(direction);
     if (shares.portal_share > 0)
-        density += shares.portal_share * sources_.guide().portal_density_per_sr(shares.portals, shares.from, direction);
+        density += shares.portal_share * sources_.guide().density_per_sr(shares.portals, shares.from, direction);
     return density * shares.sky_rays;
 }
 

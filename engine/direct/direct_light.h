@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/direct/path_random.h"
-#include "engine/direct/scattering.h"
+#include "engine/direct/vertex.h"
 #include "engine/sources/source_list.h"
 
 namespace lightwell {
@@ -36,10 +36,8 @@ class DirectLight {
 public:
     DirectLight(const SourceList& sources, const RayQueries& rays) : sources_(sources), rays_(rays) {}
 
-    /// @param scattering  how the path will be scattered on, for the weights
-    /// @param rays        shadow rays to lamps, shared out by potential, and to the sky
-    Gathered gather(const Vertex& vertex, const Scattering& scattering, int rays, PathRandom& random,
-                    SourceShares& shares) const;
+    /// @param rays  shadow rays to lamps, shared out by potential, and to the sky
+    Gathered gather(const Vertex& vertex, int rays, PathRandom& random, SourceShares& shares) const;
 
     /// Density with which gather() would have aimed a shadow ray in the direction of a lamp that a ray has met.
     double lamp_density(const SourceShares& shares, int lamp, const Direction& direction,

@@ -41,8 +41,10 @@ Camera::Camera(const View& view) : view_(view)
 {
     const std::string place = "view " + view.name;
     if (!is_finite(view.position) || !is_finite(view.direction) || !is_finite(view.up) || !std::isfinite(view.shift) ||
-        !std::isfinite(view.lift) || !(view.fore_m >= 0) || !(view.aft_m >= 0))
-        throw InputError{place, "a number is not finite, or a clipping distance is negative", "check the view's words"};
+        !std::isfinite(view.lift) || !(view.fore_m >= 0) || !(view.aft_m >= 0) ||
+        (view.aft_m > 0 && view.aft_m <= view.fore_m))
+        throw InputError{place, "a number is not finite, or the clipping distances are not 0 <= fore < aft",
+                         "check the view's words"};
     check_extent(view, view.horizontal, "-vh");
     check_extent(view, view.vertical, "-vv");
     view_.direction = normalized(view.direction);

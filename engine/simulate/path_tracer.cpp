@@ -26,9 +26,13 @@ struct PathTracer::Walk {
     bool at_first = true;          ///< no scattering has happened yet
     std::optional<Hit> first;      ///< what the ray from the eye met
     bool first_is_diffuse = false; ///< so that its scattered light tells its irradiance
-    bool no_shadow_rays = true;    ///< the last scattering was a single direction: sources are met in full
-    double scattered_density = 0;  ///< of the last scattering
-    SourceShares shares;           ///< of the shadow rays there
+    Spectrum first_reflectance;    ///< diffuse
+    Spectrum direct_irradiance;    ///< on the first surface
+    double closeness_per_m = 0;
+    bool no_shadow_rays = true;   ///< the last scattering was a single direction: sources are met in full
+    double scattered_density = 0; ///< of the last scattering
+    SourceShares shares;          ///< of the shadow rays there
+    SourceShares here;            ///< of the shadow rays at this vertex; they become `shares` when the path bends
     int scatterings = 0;
 
     void add(Spectrum light)
@@ -84,20 +88,21 @@ void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& materi
     walk.add(radiance * walk.weight(shadow_density));
 }
 
-void PathTracer::gather_at(Walk& walk, const Vertex& vertex, const Scattering& scattering, PathRandom& random) const
+void PathTracer::gather_at(Walk& walk, const Vertex& vertex, PathRandom& random) const
 {
     const bool first = walk.at_first;
-    const Gathered direct = direct_.gather(vertex, scattering, first ? first_rays : later_rays, random, walk.shares);
+    const Gathered direct = direct_.gather(vertex, first ? first_rays : later_rays, random, walk.here);
     walk.radiance += walk.throughput * direct.radiance;
     if (first)
-        walk.irradiance += direct.irradiance;
+        walk.irradiance = walk.direct_irradiance = direct.irradiance;
     else
         walk.irradiance += walk.arriving_throughput * direct.radiance;
 }
 
-bool PathTracer::scatter(Walk& walk, const Vertex& vertex, const Scattering& scattering, PathRandom& random) const
+bool PathTracer::scatter(Walk& walk, const Vertex& vertex, PathRandom& random) const
 {
-    const std::optional<BsdfSample> scattered = scattering.sample(random);
+    const double choice = random.one();
+    const std::optional<BsdfSample> scattered = vertex.bsdf.sample(vertex.to_viewer, choice, random.pair());
     const Direction local = scattered ? scattered->to_light : Direction{};
     const Direction world = scattered && scattered->straight ? walk.ray.direction : vertex.frame.to_world(local);
     if (!scattered || scattered->weight.is_black() || !vertex.same_side(world, local))
@@ -111,6 +116,7 @@ bool PathTracer::scatter(Walk& walk, const Vertex& vertex, const Scattering& sca
     walk.throughput *= scattered->weight;
     walk.ray = {vertex.hit.leave(world), normalized(world), infinity};
     if (!scattered->straight) { // a straight passage leaves the weights of the last scattering as they are
+        walk.shares = walk.here;
         walk.no_shadow_rays = scattered->delta;
         walk.scattered_density = scattered->density_per_sr;
     }
@@ -136,6 +142,9 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     }
     if (!walk.first)
         walk.first = hit;
+    if (walk.scatterings ==
+        1) // arriving_throughput / pi turns the mean over scattered rays into the cosine-weighted one
+        walk.closeness_per_m = walk.arriving_throughput.max() / (pi * hit.t);
     const auto modifier = static_cast<std::size_t>(hit.modifier);
     const Material* material = materials_[modifier];
     if (std::holds_alternative<Illum>(*material) && (walk.no_shadow_rays || dot(hit.normal, walk.ray.direction) > 0)) {
@@ -150,7 +159,6 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
         return false;
     }
     const Vertex vertex(hit, walk.ray.direction, *material);
-    const Scattering scattering(vertex, sources_.guide());
     const auto* body = std::get_if<Dielectric>(material);
     if (body != nullptr && dot(hit.normal, walk.ray.direction) > 0) { // the way here was inside the body
         const Spectrum left = body->transmission_per_m;
@@ -159,11 +167,13 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
         walk.arriving_throughput *= kept;
     }
     const Lobes& lobes = vertex.bsdf.lobes();
-    if (walk.at_first)
+    if (walk.at_first) {
         walk.first_is_diffuse = !lobes.diffuse_reflectance.is_black();
+        walk.first_reflectance = lobes.diffuse_reflectance;
+    }
     if (!lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black() || lobes.glossy)
-        gather_at(walk, vertex, scattering, random);
-    return scatter(walk, vertex, scattering, random);
+        gather_at(walk, vertex, random);
+    return scatter(walk, vertex, random);
 }
 
 void PathTracer::run(Walk& walk, PathRandom& random) const
@@ -180,6 +190,9 @@ PathSample PathTracer::sample(const Ray& ray, PathRandom& random) const
     PathSample result;
     result.radiance = walk.radiance;
     result.irradiance = walk.irradiance;
+    result.indirect_irradiance = walk.irradiance - walk.direct_irradiance;
+    result.diffuse_reflectance = walk.first_reflectance;
+    result.closeness_per_m = walk.closeness_per_m;
     if (!walk.first)
         return result;
     const Hit& first = *walk.first;
@@ -196,11 +209,10 @@ Spectrum PathTracer::irradiance(Hit here, const Direction& normal, PathRandom& r
 {
     here.normal = here.shading_normal = normal;
     const Vertex vertex(here, -normal, white_);
-    const Scattering scattering(vertex, sources_.guide());
     Walk walk;
     walk.ray.direction = -normal;
-    gather_at(walk, vertex, scattering, random);
-    if (scatter(walk, vertex, scattering, random))
+    gather_at(walk, vertex, random);
+    if (scatter(walk, vertex, random))
         run(walk, random);
     return walk.irradiance;
 }

@@ -6,8 +6,11 @@ namespace lightwell {
 
 /// What one path through a picture element brings back.
 struct PathSample {
-    Spectrum radiance;   ///< towards the eye
-    Spectrum irradiance; ///< on the first surface met, on the viewer's side
+    Spectrum radiance;            ///< towards the eye
+    Spectrum irradiance;          ///< on the first surface met, on the viewer's side
+    Spectrum indirect_irradiance; ///< the part of it that came by scattered rays
+    Spectrum diffuse_reflectance; ///< of that surface; black where it does not scatter diffusely
+    double closeness_per_m = 0;   ///< an estimate of the cosine-weighted mean of 1 / distance around that surface
     bool met_surface = false;
     double distance_m = infinity; ///< to that surface
     Direction normal{0, 0, 0};    ///< on the viewer's side
@@ -28,12 +31,12 @@ public:
 
 private:
     struct Walk;
-    bool scatter(Walk& walk, const Vertex& vertex, const Scattering& scattering, PathRandom& random) const;
+    bool scatter(Walk& walk, const Vertex& vertex, PathRandom& random) const;
     void meet_distant(Walk& walk) const;
     bool meet_surface(Walk& walk, PathRandom& random) const;
     void meet_emitter(Walk& walk, const Hit& hit, const Material& material) const;
     void run(Walk& walk, PathRandom& random) const;
-    void gather_at(Walk& walk, const Vertex& vertex, const Scattering& scattering, PathRandom& random) const;
+    void gather_at(Walk& walk, const Vertex& vertex, PathRandom& random) const;
 
     const Scene& scene_;
     const RayQueries& rays_;

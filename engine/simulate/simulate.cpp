@@ -2,8 +2,10 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/threads.h"
+#include "engine/sampling/statistics.h"
 #include "engine/simulate/path_tracer.h"
 #include "engine/simulate/replicates.h"
+#include "engine/simulate/shared_irradiance.h"
 
 #include <algorithm>
 #include <atomic>
@@ -20,6 +22,9 @@ constexpr int most_samples = 1 << 20;
 constexpr double sensor_lift = 1e-9;
 /// Dimmer pixels than this share of the mean say nothing about relative accuracy.
 constexpr double dark_share = 1e-4;
+/// By what sharing among pixels usually divides the error of indirect irradiance: the pilot run's guess. The error
+/// stated with the result is not guessed.
+constexpr double usual_shrink = 10;
 
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
@@ -69,7 +74,10 @@ private:
 };
 
 struct PixelResult {
-    ReplicateMean channel[3], luminance, illuminance;
+    RunningStatistics channel[3], luminance, illuminance;
+    RunningStatistics rest[3], rest_luminance, indirect[3], indirect_illuminance; ///< for sharing
+    Spectrum reflectance_sum;
+    double closeness_sum = 0;
     double depth_sum = 0;
     Vec3 normal_sum;
     int met = 0;
@@ -80,7 +88,7 @@ struct PixelTask {
     const PathTracer& tracer;
     int width, height;
     std::uint64_t seed;
-    double aft_m;
+    double reach_m; ///< between the clipping distances
 
     PixelResult operator()(int x, int y, int samples) const
     {
@@ -89,31 +97,48 @@ struct PixelTask {
             static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
         const auto each = static_cast<std::uint32_t>(samples / replicates);
         for (std::uint64_t r = 0; r < replicates; ++r) {
-            Spectrum radiance, irradiance;
+            Sums sums;
             for (std::uint32_t i = 0; i < each; ++i)
-                add_path(result, x, y, PathRandom(mix_bits(seed, r), pixel, i), radiance, irradiance);
-            radiance = radiance / each;
-            result.channel[0].add(radiance.r);
-            result.channel[1].add(radiance.g);
-            result.channel[2].add(radiance.b);
-            result.luminance.add(luminance_of(radiance).value);
-            result.illuminance.add(illuminance_of(irradiance / each).value);
+                add_path(result, x, y, PathRandom(mix_bits(seed, r), pixel, i), sums);
+            add_colour(result.channel, sums.radiance / each);
+            add_colour(result.rest, (sums.radiance - sums.scattered) / each);
+            add_colour(result.indirect, sums.indirect / each);
+            result.luminance.add(luminance_of(sums.radiance / each).value);
+            result.rest_luminance.add(luminance_of((sums.radiance - sums.scattered) / each).value);
+            result.illuminance.add(illuminance_of(sums.irradiance / each).value);
+            result.indirect_illuminance.add(illuminance_of(sums.indirect / each).value);
         }
         return result;
     }
 
 private:
-    void add_path(PixelResult& result, int x, int y, PathRandom random, Spectrum& radiance, Spectrum& irradiance) const
+    /// Over the paths of one replicate.
+    struct Sums {
+        Spectrum radiance, irradiance;
+        Spectrum indirect;  ///< irradiance on the first surface by scattered rays
+        Spectrum scattered; ///< what that surface sends to the eye of it, diffusely
+    };
+    static void add_colour(RunningStatistics (&means)[3], Spectrum colour)
+    {
+        means[0].add(colour.r);
+        means[1].add(colour.g);
+        means[2].add(colour.b);
+    }
+    void add_path(PixelResult& result, int x, int y, PathRandom random, Sums& sums) const
     {
         const UnitSquare jitter = random.pair();
         ViewRay start;
         if (!camera.ray((x + jitter.u) / width, 1 - (y + jitter.v) / height, start))
             return;
-        const PathSample path = tracer.sample({start.origin, start.direction, aft_m > 0 ? aft_m : infinity}, random);
-        radiance += path.radiance;
+        const PathSample path = tracer.sample({start.origin, start.direction, reach_m}, random);
+        sums.radiance += path.radiance;
         if (!path.met_surface)
             return;
-        irradiance += path.irradiance;
+        sums.irradiance += path.irradiance;
+        sums.indirect += path.indirect_irradiance;
+        sums.scattered += path.indirect_irradiance * path.diffuse_reflectance / pi;
+        result.reflectance_sum += path.diffuse_reflectance;
+        result.closeness_sum += path.closeness_per_m;
         result.depth_sum += path.distance_m;
         result.normal_sum += path.normal;
         ++result.met;
@@ -127,9 +152,28 @@ const char* const channel_names[] = {
 Picture empty_picture(int width, int height)
 {
     Picture picture{width, height, {}, {}};
-    for (const char* name : channel_names)
+    for (const std::string& name : tile_channels())
         picture.add_channel(name);
     return picture;
+}
+
+/// A mean and its standard error under the names PREFIX.C and error.PREFIX.C.
+void put_for_sharing(Picture& picture, std::size_t at, const PixelResult& result, int samples)
+{
+    const auto set = [&](std::string name, double value) {
+        picture.channels.find(name)->second[at] = static_cast<float>(value);
+    };
+    for (int c = 0; c < 3; ++c) {
+        const std::string colour(1, "RGB"[c]);
+        set(std::string("rest.").append(colour), result.rest[c].mean());
+        set(std::string("error.rest.").append(colour), result.rest[c].standard_error());
+        set(std::string("indirect.").append(colour), result.indirect[c].mean());
+        set(std::string("error.indirect.").append(colour), result.indirect[c].standard_error());
+        set(std::string("reflectance.").append(colour), result.reflectance_sum[c] / samples);
+    }
+    set("error.rest.Y", result.rest_luminance.standard_error());
+    set("error.indirect.Y", result.indirect_illuminance.standard_error());
+    set("closeness", result.closeness_sum / samples);
 }
 
 void put(Picture& picture, std::size_t at, const PixelResult& result, int samples)
@@ -155,6 +199,7 @@ void put(Picture& picture, std::size_t at, const PixelResult& result, int sample
     set("N.X", normal.x);
     set("N.Y", normal.y);
     set("N.Z", normal.z);
+    put_for_sharing(picture, at, result, samples);
 }
 
 void copy_tile(Picture& picture, const Tile& tile, const Picture& part)
@@ -165,6 +210,12 @@ void copy_tile(Picture& picture, const Tile& tile, const Picture& part)
             std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * tile.width, tile.width,
                         values.begin() + static_cast<std::ptrdiff_t>(tile.y + y) * picture.width + tile.x);
     }
+}
+
+void drop_sharing_channels(Picture& picture)
+{
+    for (const std::string& name : sharing_channels())
+        picture.channels.erase(name);
 }
 
 std::vector<Tile> tiles_of(int width, int height)
@@ -189,7 +240,10 @@ int pilot_pixels(const PixelTask& pixel, const PictureSettings& settings, const 
         const PixelResult result = pixel((2 * column + 1) * settings.width / (2 * nx),
                                          (2 * row + 1) * settings.height / (2 * ny), pilot_samples);
         values[i] = result.luminance.mean();
-        errors[i] = result.luminance.standard_error();
+        const double factor = result.reflectance_sum.g / pilot_samples / (pi * usual_shrink);
+        errors[i] = settings.unbiased ? result.luminance.standard_error()
+                                      : std::hypot(result.rest_luminance.standard_error(),
+                                                   factor * result.indirect_illuminance.standard_error());
         teller.done_one();
     });
     return samples_for(median_relative(values, errors), pilot_samples, settings.accuracy, most_samples);
@@ -216,6 +270,13 @@ void check_accuracy(double accuracy, const std::string& place)
 }
 
 } // namespace
+
+std::vector<std::string> tile_channels()
+{
+    std::vector<std::string> names(std::begin(channel_names), std::end(channel_names));
+    names.insert(names.end(), sharing_channels().begin(), sharing_channels().end());
+    return names;
+}
 
 int samples_for(double found, int pilot, double wanted, int most) noexcept
 {
@@ -265,7 +326,8 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     check_size(view, settings);
     check_accuracy(settings.accuracy, "view " + view.name);
     const Camera camera(view);
-    const PixelTask pixel{camera, parts_->tracer, settings.width, settings.height, settings.seed, view.aft_m};
+    const PixelTask pixel{camera,          parts_->tracer, settings.width,
+                          settings.height, settings.seed,  view.aft_m > 0 ? view.aft_m - view.fore_m : infinity};
     PictureResult result;
     result.samples =
         settings.samples > 0 ? whole_replicates(settings.samples) : pilot_pixels(pixel, settings, progress);
@@ -291,6 +353,10 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
         copy_tile(result.picture, tile, *part); // tiles do not overlap
         teller.done_one();
     });
+    if (settings.unbiased)
+        drop_sharing_channels(result.picture);
+    else
+        result.sharing_bias = share_irradiance(result.picture, camera, settings.threads);
     std::vector<double> luminance, error;
     for (std::size_t i = 0; i < result.picture.channels.at("R").size(); ++i) {
         const auto& c = result.picture.channels;
@@ -318,7 +384,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
             here.position = sensor.position;
             here.error_m =
                 sensor_lift * parts_->size_m + 64 * std::numeric_limits<double>::epsilon() * max_abs(sensor.position);
-            ReplicateMean mean;
+            RunningStatistics mean;
             const auto each = static_cast<std::uint32_t>(samples / replicates);
             for (std::uint64_t r = 0; r < replicates; ++r) {
                 Spectrum sum;

@@ -25,6 +25,9 @@ struct PictureSettings {
     double accuracy = 0.05; ///< wanted median over the pixels of standard error / luminance
     std::uint64_t seed = 1;
     int threads = 0; ///< 0: all processors; the result does not depend on it
+    /// Each pixel is estimated by its own paths alone. Else neighbouring pixels of the same surface share their
+    /// indirect irradiance (engine/simulate/shared_irradiance.h), which is biased where it varies quickly.
+    bool unbiased = false;
 };
 
 /// Where finished tiles go, and where those of an interrupted run come from. May be called from several threads.
@@ -36,9 +39,14 @@ struct TileStore {
 struct PictureResult {
     Picture picture; ///< channels as in picture.h, with error.R, error.G, error.B, error.Y (1 standard error)
     double median_relative_error = 0; ///< of luminance, over the pixels that are not black
+    /// Root mean square over tiles of the relative difference that sharing made, beyond what noise explains.
+    double sharing_bias = 0;
     int samples = 0;
     double seconds = 0;
 };
+
+/// Channels of the tiles that a TileStore gets: those of the result and what sharing needs.
+std::vector<std::string> tile_channels();
 
 struct GridSettings {
     int samples = 0;        ///< paths per sensor; 0: chosen from `accuracy` by a pilot run
@@ -57,7 +65,8 @@ struct GridResult {
 };
 
 /// A scene made ready for light: ray queries, list of sources. Rendering does not change it.
-/// Error: unbiased; the standard error stated with each value is that of the mean of independent samples.
+/// Error: grids and pictures with `unbiased` are unbiased; the standard error stated with each value is that of the
+/// mean of eight independent replicates.
 class Simulation {
 public:
     /// @throws InputError from validate(scene)

@@ -4,7 +4,7 @@
 
 namespace lightwell {
 
-/// A moment at a place. Source of the conventions: DESIGN of time as ISO 8601, longitude positive to the east.
+/// A moment at a place, by the clock of that place.
 struct PlaceAndTime {
     double latitude_deg = 0;  ///< north positive
     double longitude_deg = 0; ///< east positive

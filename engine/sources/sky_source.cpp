@@ -52,7 +52,6 @@ SkySource::SkySource(const Scene& scene, std::vector<const Surface*> wide) : sce
             total += 0.25 * (at(0.25, 0.25) + at(0.75, 0.25) + at(0.25, 0.75) + at(0.75, 0.75));
             summed_.push_back(total);
         }
-    mean_ = total / static_cast<double>(summed_.size());
     if (!(total > 0))
         wide_.clear();
 }

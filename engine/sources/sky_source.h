@@ -20,7 +20,6 @@ public:
     Spectrum radiance(const Direction& direction) const noexcept;
     SourceSample sample(UnitSquare u) const noexcept;
     double density_per_sr(const Direction& direction) const noexcept;
-    double mean_radiance() const noexcept { return mean_; }
 
 private:
     std::size_t cell(const Direction& direction) const noexcept;
@@ -28,7 +27,6 @@ private:
     const Scene* scene_ = nullptr;
     std::vector<const Surface*> wide_;
     std::vector<double> summed_; ///< photopic radiance of the cells, all of equal solid angle, up to and including each
-    double mean_ = 0;
 };
 
 } // namespace lightwell

@@ -191,7 +191,7 @@ SourceList::SourceList(const Scene& scene, const RayQueries& rays)
             suns_.push_back({source, radiance});
     }
     sky_ = SkySource(scene, wide);
-    guide_ = std::make_unique<Guide>(scene, rays, sky_, suns_);
+    guide_ = std::make_unique<Guide>(scene, rays, sky_);
 }
 
 int SourceList::lamp_at(const Hit& hit) const noexcept

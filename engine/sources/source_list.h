@@ -30,7 +30,6 @@ public:
 
     /// The lamp that a ray has met; -1 when it is none that shadow rays aim at.
     int lamp_at(const Hit& hit) const noexcept;
-    bool any() const noexcept { return !lamps_.empty() || !suns_.empty() || !sky_.empty(); }
 
 private:
     struct Finder;

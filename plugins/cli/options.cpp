@@ -71,6 +71,12 @@ void add_effort_words(CLI::App& command, EffortWords& words, double accuracy)
         ->type_name("N");
 }
 
+void add_unbiased_flag(CLI::App& command, EffortWords& words)
+{
+    command.add_flag("--unbiased", words.unbiased,
+                     "plain path tracing: pixels do not share the indirect light of their neighbours");
+}
+
 double parse_accuracy(const std::string& text)
 {
     const bool percent = !text.empty() && text.back() == '%';

@@ -34,7 +34,10 @@ struct EffortWords {
     int samples = 0;
     std::uint64_t seed = 1;
     int threads = 0;
+    bool unbiased = false;
 };
+/// `--unbiased`, for pictures.
+void add_unbiased_flag(CLI::App& command, EffortWords& words);
 /// @param accuracy  the default, relative
 void add_effort_words(CLI::App& command, EffortWords& words, double accuracy);
 

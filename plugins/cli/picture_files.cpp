@@ -9,7 +9,6 @@
 #include "plugins/cli/scene_hash.h"
 #include "plugins/cli/terminal.h"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <ostream>
@@ -17,10 +16,6 @@
 namespace lightwell {
 namespace {
 
-/// The channels of a finished tile, so that the partial file has a place for each.
-constexpr std::array<const char*, 13> channel_names{
-    "R",       "G",       "B",       "illuminance.Y",      "Z", "N.X", "N.Y", "N.Z", "error.R",
-    "error.G", "error.B", "error.Y", "error.illuminance.Y"};
 constexpr const char* channel_units =
     "R, G, B: W/(m^2 sr), 179 lm/W; illuminance.Y: lx on the first surface, viewer's side; Z: m along the ray; "
     "N: unit normal, world; error: one standard error, R, G, B in W/(m^2 sr), Y in cd/m^2, illuminance.Y in lx";
@@ -40,7 +35,7 @@ std::string settings_text(const Simulation& simulation, const PictureJob& job)
         s.samples > 0 ? "samples " + std::to_string(s.samples) : "accuracy " + shortest(s.accuracy);
     return "size " + std::to_string(s.width) + "x" + std::to_string(s.height) + ", " + effort + ", seed " +
            std::to_string(s.seed) + ", scene " + hexadecimal(scene_hash(simulation.scene())) + ", view " +
-           to_text(job.view) + ", " + program_version();
+           to_text(job.view) + (s.unbiased ? ", unbiased, " : ", ") + program_version();
 }
 
 std::map<std::string, std::string> picture_header(const Simulation& simulation, const PictureJob& job)
@@ -83,9 +78,12 @@ void write_companions(const PictureResult& result, const PictureJob& job)
 
 std::string picture_line(const PictureResult& result, const PictureJob& job)
 {
-    char text[160];
-    std::snprintf(text, sizeof text, ": %d x %d, %d samples per pixel, median standard error %.2g %%, ",
-                  result.picture.width, result.picture.height, result.samples, result.median_relative_error * 100);
+    char text[200], bias[60] = "";
+    if (!job.settings.unbiased)
+        std::snprintf(bias, sizeof bias, "bias of sharing %.2g %%, ", result.sharing_bias * 100);
+    std::snprintf(text, sizeof text, ": %d x %d, %d samples per pixel, median standard error %.2g %%, %s",
+                  result.picture.width, result.picture.height, result.samples, result.median_relative_error * 100,
+                  bias);
     return job.file.string() + text + duration_text(result.seconds);
 }
 
@@ -113,7 +111,7 @@ void fit_to_view(const View& view, PictureSettings& settings)
 Status make_picture(const Simulation& simulation, const PictureJob& job, std::ostream& out, std::ostream& err)
 {
     Picture layout{job.settings.width, job.settings.height, {}, picture_header(simulation, job)};
-    for (const char* name : channel_names)
+    for (const std::string& name : tile_channels())
         layout.channels[name];
     ProgressLine line(job.file.filename().string());
     GrowingPicture growing(job.file, layout, tile_size);
@@ -123,6 +121,8 @@ Status make_picture(const Simulation& simulation, const PictureJob& job, std::os
         PictureResult result = render_tiles(simulation, job, growing, line);
         result.picture.header.insert(layout.header.begin(), layout.header.end());
         result.picture.header["samples"] = std::to_string(result.samples);
+        if (!job.settings.unbiased)
+            result.picture.header["sharing_bias"] = shortest(result.sharing_bias);
         result.picture.header["median_relative_error"] = shortest(result.median_relative_error);
         growing.finish(result.picture);
         write_companions(result, job);

@@ -39,8 +39,8 @@ Status render(const RenderOptions& options, std::ostream& out, std::ostream& err
     err << lit.report;
     PictureJob job;
     job.view = choose_view(options.view, lit.scene);
-    job.settings = {options.size.first,      options.size.second, options.effort.samples,
-                    options.effort.accuracy, options.effort.seed, options.effort.threads};
+    job.settings = {options.size.first,  options.size.second,    options.effort.samples, options.effort.accuracy,
+                    options.effort.seed, options.effort.threads, options.effort.unbiased};
     fit_to_view(job.view, job.settings);
     job.file = options.output;
     job.png = options.png;
@@ -74,6 +74,7 @@ void add_render(CLI::App& app, Status& status)
         ->type_name("WxH");
     constexpr double picture_accuracy = 0.05;
     add_effort_words(command, options->effort, picture_accuracy);
+    add_unbiased_flag(command, options->effort);
     command.footer(examples);
     command.callback([options, &status] { status = render(*options, std::cout, std::cerr); });
 }

@@ -90,13 +90,14 @@ Jobs jobs_of(const Project& project, const RunOptions& options, const LitScene& 
     };
     const auto add_picture = [&](Jobs& jobs, const ProjectView& view) {
         const EffortWords effort = effort_of(project, options, picture_accuracy);
-        PictureJob job{view.view,
-                       {view.width, view.height, effort.samples, effort.accuracy, effort.seed, effort.threads},
-                       folder / (view.view.name + ".exr"),
-                       project.output.png,
-                       project.output.hdr,
-                       lit.provenance,
-                       lit.report};
+        PictureJob job{
+            view.view,
+            {view.width, view.height, effort.samples, effort.accuracy, effort.seed, effort.threads, effort.unbiased},
+            folder / (view.view.name + ".exr"),
+            project.output.png,
+            project.output.hdr,
+            lit.provenance,
+            lit.report};
         fit_to_view(job.view, job.settings);
         if (wanted(view.view.name))
             jobs.pictures.push_back(std::move(job));
@@ -181,6 +182,7 @@ void add_run(CLI::App& app, Status& status)
     command.add_option("--only", options->only, "name of a view or grid; may be given several times")
         ->type_name("NAME");
     add_effort_words(command, options->effort, picture_accuracy);
+    add_unbiased_flag(command, options->effort);
     command.footer(examples);
     command.callback([options, &status, &command] {
         options->accuracy_given = command.count("--accuracy") > 0;

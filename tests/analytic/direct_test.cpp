@@ -93,6 +93,22 @@ TEST(PolygonSource, ALampInsideAMirroredAndTurnedInstanceShinesOnItsFrontSide)
     }
 }
 
+/// A sheet that scatters 0.3 and lets 0.3 pass straight gives what one that scatters 0.3 gives, and 0.3 of the lamp.
+TEST(TranslucentSheet, LightThatPassesStraightIsCountedOnceBesideWhatIsScattered)
+{
+    const auto under_sheet = [](double transmission, double straight) {
+        Scene scene;
+        const ModifierId lamp = scene.add_material("lamp", light_of(luminance));
+        const ModifierId sheet = scene.add_material("sheet", Trans{Spectrum::grey(1), 0, 0, transmission, straight});
+        scene.root.add_ring({{0, 0, 1.2}, {0, 0, -1}, 0, 1}, lamp, "lamp");
+        scene.root.add_ring({{0, 0, 1}, {0, 0, -1}, 0, 3}, sheet, "sheet");
+        return illuminance_at(Simulation(std::move(scene)), {{0, 0, 0}, {0, 0, 1}}, 1 << 18);
+    };
+    const Found scattered = under_sheet(0.3, 0), both = under_sheet(0.6, 0.5);
+    const double lamp_alone = pi * luminance / (1 + 1.2 * 1.2);
+    expect_agrees({both.value, std::hypot(both.error, scattered.error)}, scattered.value + 0.3 * lamp_alone, 0.05);
+}
+
 TEST(Sun, DiscGivesPiLTimesSineSquaredThroughClearAirAndGlass)
 {
     for (const double full_angle : {1e-6, 0.533, 5.0}) {

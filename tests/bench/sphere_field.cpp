@@ -5,25 +5,18 @@
 #include "engine/accel/ray_queries.h"
 #include "engine/base/random.h"
 #include "engine/sampling/warps.h"
+#include "tests/bench/measure.h"
 
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <vector>
 
 namespace {
 
 using namespace lightwell;
-
-double cpu_seconds()
-{
-    timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// The plainest use of Embree: float spheres as user geometry, nothing kept but the distance.
 class RawEmbree {
@@ -108,7 +101,7 @@ struct Field {
 
 Field make_field(int count, int ray_count)
 {
-    // As many spheres as fill the unit cube so that about half of the rays from inside meet one.
+    // As many spheres as fill the unit cube so that about a fifth of the rays from inside meet one.
     Field field;
     RandomStream random(1, static_cast<std::uint64_t>(count), 0);
     const double radius = 0.62 * std::sqrt(1.0 / (pi * count));
