@@ -41,6 +41,7 @@ Measurement measure_view(const Simulation& simulation, const Check& check, int s
     settings.samples = samples;
     settings.seed = seed;
     settings.threads = 1;
+    settings.unbiased = true;
     const Picture picture = simulation.render(*check.view, settings).picture;
     // All scenes are grey, so that one channel is the whole.
     return {lumens_per_watt * picture.at("G", 0, 0), lumens_per_watt * picture.at("error.G", 0, 0)};
