@@ -36,15 +36,16 @@ TEST(Sky, ARoundRoofOpeningIsADiscOfSky)
     }
 }
 
-/// A glazed opening passes the sky times the pane's transmittance by angle, here nearly normal: 88.1 %.
+/// A glazed opening passes the sky times the pane's transmittance by angle, here nearly normal: 88.1 %. A round wall
+/// keeps out the sky beyond the rim of the roof.
 TEST(Sky, AGlazedOpeningIsFoundByItsPaneAndDimmedByIt)
 {
     Scene scene = under_sky(CieSky::uniform, 1000);
     const ModifierId black = scene.add_material("black", Plastic{});
     const ModifierId glass = scene.add_material("glass", Glass{Spectrum::grey(0.96), 1.52});
     const double r = 0.25, half = 0.5 * std::sqrt(pi) * r;
-    scene.root.add_ring({{0, 0, 5}, {0, 0, -1}, r, 3}, black, "roof");
-    scene.root.add_cone({{{0, 0, -1}, {0, 0, 5}}, {3, 3}}, Shape::tube, black, "walls");
+    scene.root.add_ring({{0, 0, 5}, {0, 0, -1}, r, 20}, black, "roof");
+    scene.root.add_cone({{{0, 0, -1}, {0, 0, 5.02}}, {20, 20}}, Shape::tube, black, "wall");
     scene.root.add_polygon({{-1.15 * half, -1.15 * half, 5.01},
                             {1.15 * half, -1.15 * half, 5.01},
                             {1.15 * half, 1.15 * half, 5.01},

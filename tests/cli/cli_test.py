@@ -195,6 +195,9 @@ class Layers(Case):
         self.write("a.dxf", face_dxf(["A-FLOR", "XQZ17"]))
         self.write("map.toml", '[[rule]]\nlayer = "A-FLOR"\nuse = "white_paint"\n')
         self.expect(DONE, "layers", "a.dxf", "--map", "map.toml", says=["XQZ17"])
+        noted = self.expect(DONE, "layers", "a.dxf", "--map", "map.toml", "--json", says=["XQZ17", "grey_50"])
+        materials = {layer["name"]: layer["material"] for layer in json.loads(noted.stdout)["layers"]}
+        self.assertEqual(materials, {"A-FLOR": "white_paint", "XQZ17": "grey_50"})
         self.expect(NO, "layers", "a.dxf", "--map", "map.toml", "--strict", says=["XQZ17"])
 
     def test_import_writes_a_scene_that_can_be_lit(self):
