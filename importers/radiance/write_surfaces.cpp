@@ -30,7 +30,9 @@ const std::string& SceneWriter::use(Output& out, ModifierId id)
     if (id == out.last)
         return out.last_word;
     std::string word = "void";
-    if (id != void_modifier) {
+    // A place-holder that nothing stands in for is invisible, as `void` is; other programs take no alias of `void`.
+    const ResolvedMaterial resolved = resolve(changed_, id);
+    if (resolved.material != nullptr || resolved.brightness != nullptr) {
         const std::string& name = changed_.modifiers[static_cast<std::size_t>(id)].name;
         const auto known = out.defined.find(name);
         if (known == out.defined.end() || known->second != id)
@@ -56,11 +58,8 @@ void SceneWriter::define(Output& out, ModifierId id)
         const std::string parent = use(out, modifier.parent);
         append_sky_brightness(out.file.text(), parent, name, *sky);
     } else {
-        // A place-holder that nothing stands in for is invisible, as `void` is.
         const auto* alias = std::get_if<Alias>(&modifier.what);
-        const ModifierId target = alias == nullptr                 ? void_modifier
-                                  : alias->target != void_modifier ? alias->target
-                                                                   : modifier.parent;
+        const ModifierId target = alias != nullptr && alias->target != void_modifier ? alias->target : modifier.parent;
         const std::string target_word = use(out, target);
         const bool has_pattern = resolve(changed_, target).brightness != nullptr;
         out.file.text() += (has_pattern ? "inherit alias " : "void alias ") + name + ' ' + target_word + '\n';

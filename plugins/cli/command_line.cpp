@@ -20,6 +20,7 @@ constexpr const char* overview = R"(From a CAD file to light:
       --view "-vp 2 1 1.6 -vd 0 1 0 -vh 60 -vv 40" -o house.exr --png
   lightwell illuminance house.dxf --map map.toml --grid layer:A-FLOR@0.75/0.5 -o desk.csv -o desk.png
   lightwell run house.toml                           all views and grids of a project
+  lightwell validate                                 the engine against closed forms
 Exit status: 0 done, 1 the answer is no or the work was interrupted, 2 wrong usage, 3 bad input, 4 our fault.
 `lightwell COMMAND --help` explains each command.)";
 
@@ -53,6 +54,7 @@ Status parse_and_run(const std::vector<std::string>& arguments)
     add_render(app, status);
     add_illuminance(app, status);
     add_run(app, status);
+    add_validate(app, status);
     std::vector<std::string> words = join_values(arguments);
     std::reverse(words.begin(), words.end()); // CLI11 takes its words from the back
     try {

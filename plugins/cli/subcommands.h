@@ -15,5 +15,6 @@ void add_materials(CLI::App& app, Status& status);
 void add_render(CLI::App& app, Status& status);
 void add_illuminance(CLI::App& app, Status& status);
 void add_run(CLI::App& app, Status& status);
+void add_validate(CLI::App& app, Status& status);
 
 } // namespace lightwell

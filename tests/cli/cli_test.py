@@ -358,6 +358,24 @@ class Interruption(Case):
         self.assertEqual(done.returncode, DONE, done.stderr)
 
 
+class Validate(Case):
+    def test_values_agree_with_closed_forms_and_a_deliberate_error_does_not(self):
+        result = json.loads(self.expect(DONE, "validate", "--case", "cl_sun_disc", "--json").stdout)
+        self.assertTrue(result["passed"])
+        rows = {(row["case"], row["quantity"]): row for row in result["rows"]}
+        expected = math.pi * 1.6e9 * math.sin(math.radians(0.2665)) ** 2
+        row = rows["cl_sun_disc_0.2665_60", "normal"]
+        self.assertAlmostEqual(row["expected"] / expected, 1, 12)
+        self.assertAlmostEqual(row["found"] / expected, 1, 3)
+        wrong = json.loads(self.expect(NO, "validate", "--case", "cl_sun_disc", "--json", "--perturb", "direct").stdout)
+        self.assertEqual([row["passed"] for row in wrong["rows"]], [False] * len(rows))
+
+    def test_words_that_mean_nothing_are_refused(self):
+        self.expect(BAD_INPUT, "validate", "--perturb", "mirrors", says=["use direct, sky, glass or interreflection"])
+        self.expect(BAD_INPUT, "validate", "--case", "cl_sun_dics", says=["is in the name of no case", "cl_sun_disc_0.2665"])
+        self.expect(USAGE, "validate", "--quick", "--full")
+
+
 class Threads(Case):
     def test_one_two_and_four_threads_give_the_same_bytes(self):
         pictures, maps = set(), set()

@@ -205,6 +205,21 @@ TEST(SceneWriter, InstancesThatBindAPlaceHolderDifferentlyGetAPartEach)
     expect_same_world(scene, again, 1e-12);
 }
 
+TEST(SceneWriter, APlaceHolderThatNothingStandsInForIsVoidSinceOthersTakeNoAliasOfVoid)
+{
+    const SceneFolder folder;
+    Scene scene;
+    const ModifierId open = scene.add_modifier({"0", Inherited{}, void_modifier});
+    const ModifierId nothing = scene.add_modifier({"nothing", Alias{void_modifier}, void_modifier});
+    scene.root.add_sphere({{0, 0, 0}, 1}, Shape::sphere, open, "a");
+    scene.root.add_sphere({{3, 0, 0}, 1}, Shape::sphere, nothing, "b");
+    Report report;
+    write_radiance(scene, folder.path("out.rad"), {}, report);
+    EXPECT_EQ(folder.text("out.rad"), "# Scene text written by Lightwell; lengths in metres, z up\n"
+                                      "void sphere a\n0\n0\n4 0 0 0 1\n"
+                                      "void sphere b\n0\n0\n4 3 0 0 1\n");
+}
+
 TEST(SceneWriter, MeshesKeepTheirNormalsAndTextureUnlessFlat)
 {
     const SceneFolder folder;

@@ -1,7 +1,6 @@
 #include "engine/sampling/statistics.h"
 
 #include "engine/base/random.h"
-#include "engine/sampling/mis.h"
 
 #include <gtest/gtest.h>
 
@@ -69,17 +68,4 @@ TEST(Statistics, CountsFarFromTheExpectedOnesAreRejectedAndRareCellsArePooled)
     // One count where 1e-3 is expected says nothing once the cell is pooled.
     EXPECT_GT(chi_square_probability({100, 100, 1}, {100, 100, 1e-3}), 0.9);
     EXPECT_EQ(chi_square_probability({10, 10}, {10, 10}), 1);
-}
-
-TEST(MultipleImportance, WeightsOfBothTechniquesSumToOne)
-{
-    for (double ratio : {1e-200, 1e-3, 1.0, 7.0, 1e200}) {
-        EXPECT_NEAR(balance_weight(ratio, 1) + balance_weight(1, ratio), 1, 1e-15);
-        EXPECT_NEAR(power_weight(ratio, 1) + power_weight(1, ratio), 1, 1e-15);
-    }
-    EXPECT_DOUBLE_EQ(balance_weight(3, 1), 0.75);
-    EXPECT_DOUBLE_EQ(power_weight(3, 1), 0.9);
-    EXPECT_EQ(balance_weight(0, 1), 0);
-    EXPECT_EQ(power_weight(0, 0), 0);
-    EXPECT_EQ(power_weight(2, 0), 1);
 }
