@@ -12,7 +12,7 @@ struct FalseColour {
     std::string title;
     std::string caption;
     std::string unit = "lx";
-    double low = 0, high = 0;  ///< high 0: a round number above the 99th percentile
+    double low = 0, high = 0; ///< high 0: a round number above the 99th percentile
     bool logarithmic = false;
 };
 /// @param values       width * height, row 0 at the top; NaN is drawn as background (no value there)

@@ -16,12 +16,13 @@ struct Picture {
 
     float at(const std::string& channel, int x, int y) const
     {
-        return channels.at(channel)[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                    static_cast<std::size_t>(x)];
+        return channels.at(
+            channel)[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
     }
     std::vector<float>& add_channel(const std::string& name)
     {
-        return channels.try_emplace(name, static_cast<std::size_t>(width) * static_cast<std::size_t>(height)).first->second;
+        return channels.try_emplace(name, static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+            .first->second;
     }
 };
 

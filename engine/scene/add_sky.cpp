@@ -8,7 +8,8 @@ void add_sky(Scene& scene, const SkyModel& sky)
         const ModifierId solar = scene.add_material("solar", Light{Spectrum::grey(sky.sun_radiance)});
         scene.root.add_source({sky.to_sun, sun_full_angle_deg}, solar, "sun");
     }
-    SkyBrightness brightness{SkyBrightness::Kind::overcast, sky.zenith, sky.ground, sky.normalization, sky.to_sun, true};
+    SkyBrightness brightness{
+        SkyBrightness::Kind::overcast, sky.zenith, sky.ground, sky.normalization, sky.to_sun, true};
     switch (sky.kind) {
     case CieSky::clear:
         brightness.kind = SkyBrightness::Kind::clear;
