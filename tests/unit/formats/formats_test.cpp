@@ -3,6 +3,7 @@
 #include "engine/base/errors.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -14,7 +15,7 @@ const std::filesystem::path fixtures = LIGHTWELL_ROOT "/tests/fixtures";
 /// A copy under a name that says nothing, removed afterwards.
 struct Disguised {
     explicit Disguised(const std::filesystem::path& from)
-        : path(std::filesystem::temp_directory_path() / "lightwell_disguised.bin")
+        : path(std::filesystem::temp_directory_path() / ("lightwell_disguised-" + std::to_string(getpid())))
     {
         std::filesystem::copy_file(from, path, std::filesystem::copy_options::overwrite_existing);
     }

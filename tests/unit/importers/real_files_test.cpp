@@ -3,6 +3,7 @@
 #include "importers/layers.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -31,7 +32,8 @@ void check_round_trip(Imported imported)
 {
     const std::map<std::string, double> before = areas(imported);
     const std::size_t read = imported.ledger.read_count();
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "proposed_map.toml";
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) /
+                                       ("proposed_map-" + std::to_string(getpid()) + ".toml"); // tests run side by side
     std::ofstream(file) << propose_layer_map(imported);
     apply_layer_map(imported, read_layer_map(file));
     std::filesystem::remove(file);
