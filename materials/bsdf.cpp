@@ -83,25 +83,28 @@ Bsdf::Bsdf(const Material& material, bool from_front) noexcept : model_(model_of
                         model_);
 }
 
-Spectrum Bsdf::value_per_sr(Direction to_viewer, Direction to_light) const noexcept
+Spectrum Bsdf::value_per_sr(Direction to_viewer, Direction to_light, LobeSet set) const noexcept
 {
     const auto* layered = std::get_if<Layered>(&model_);
-    return layered ? layered->value_per_sr(to_viewer, to_light) : Spectrum{};
+    return layered ? layered->value_per_sr(to_viewer, to_light, set) : Spectrum{};
 }
 
-double Bsdf::density_per_sr(Direction to_viewer, Direction to_light) const noexcept
+double Bsdf::density_per_sr(Direction to_viewer, Direction to_light, LobeSet set) const noexcept
 {
     const auto* layered = std::get_if<Layered>(&model_);
-    return layered ? layered->density_per_sr(to_viewer, to_light) : 0;
+    return layered ? layered->density_per_sr(to_viewer, to_light, set) : 0;
 }
 
-std::optional<BsdfSample> Bsdf::sample(Direction to_viewer, double choice, UnitSquare u) const noexcept
+std::optional<BsdfSample> Bsdf::sample(Direction to_viewer, double choice, UnitSquare u, LobeSet set) const noexcept
 {
     if (!(to_viewer.z > 0))
         return {};
+    const bool scatters_diffusely = std::holds_alternative<Layered>(model_);
+    if (set == LobeSet::diffuse && !scatters_diffusely)
+        return {};
     using Sample = std::optional<BsdfSample>;
     return std::visit(Overloaded{[](const Black&) -> Sample { return {}; },
-                                 [&](const Layered& m) -> Sample { return m.sample(to_viewer, choice, u); },
+                                 [&](const Layered& m) -> Sample { return m.sample(to_viewer, choice, u, set); },
                                  [&](const Mirror& m) -> Sample { return sample_of(m, to_viewer); },
                                  [&](const auto& m) -> Sample { return sample_of(m, to_viewer, choice); }},
                       model_);

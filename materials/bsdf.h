@@ -20,13 +20,15 @@ public:
     Bsdf(const Material& material, bool from_front) noexcept;
 
     /// BSDF value without the cosine, 1/sr; delta lobes excluded; zero where to_viewer.z <= 0.
-    Spectrum value_per_sr(Direction to_viewer, Direction to_light) const noexcept;
+    Spectrum value_per_sr(Direction to_viewer, Direction to_light, LobeSet set = LobeSet::all) const noexcept;
     /// Density of sample() per solid angle, delta lobes excluded (their share of choice is missing from the integral,
     /// as is what a glossy lobe loses below the surface).
-    double density_per_sr(Direction to_viewer, Direction to_light) const noexcept;
+    double density_per_sr(Direction to_viewer, Direction to_light, LobeSet set = LobeSet::all) const noexcept;
     /// @param choice  [0, 1), picks the lobe
+    /// @param set     lobes to choose from: the weight is that of these alone
     /// @return        nothing where all light is absorbed
-    std::optional<BsdfSample> sample(Direction to_viewer, double choice, UnitSquare u) const noexcept;
+    std::optional<BsdfSample> sample(Direction to_viewer, double choice, UnitSquare u,
+                                     LobeSet set = LobeSet::all) const noexcept;
     /// Share of a straight ray that passes without bending or scattering (what a shadow ray keeps).
     Spectrum straight_transmittance(Direction to_viewer) const noexcept;
     const Lobes& lobes() const noexcept { return lobes_; }

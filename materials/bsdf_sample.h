@@ -5,6 +5,9 @@
 
 namespace lightwell {
 
+/// Which of a surface's lobes a question is about: gathering treats the diffuse ones apart from all the others.
+enum class LobeSet : unsigned char { all, diffuse, specular };
+
 /// One scattered direction.
 struct BsdfSample {
     Direction to_light;    ///< local frame; where the scattered ray goes

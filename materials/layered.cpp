@@ -44,15 +44,23 @@ double Layered::fresnel_increase(double cosine) const noexcept
     return has_fresnel_ ? grazing_gain(std::fabs(cosine)) : 0;
 }
 
-Layered::Parts Layered::parts(double cos_viewer) const noexcept
+Layered::Parts Layered::parts(double cos_viewer, LobeSet set) const noexcept
 {
     const double gain = fresnel_increase(cos_viewer);
     const double below = (1 - specularity_) * (1 - gain); // share that enters
     const double passing = below * transmission_;
     const Spectrum highlight = tinted_highlight_ ? Spectrum::grey(gain) + colour_ * (specularity_ * (1 - gain))
                                                  : Spectrum::grey(specularity_ + gain * (1 - specularity_));
-    return {colour_ * (below - passing), colour_ * (passing * (1 - transmitted_specular_)), highlight,
-            colour_ * (passing * transmitted_specular_)};
+    Parts parts;
+    if (set != LobeSet::specular) {
+        parts.diffuse_reflectance = colour_ * (below - passing);
+        parts.diffuse_transmittance = colour_ * (passing * (1 - transmitted_specular_));
+    }
+    if (set != LobeSet::diffuse) {
+        parts.specular_reflectance = highlight;
+        parts.specular_transmittance = colour_ * (passing * transmitted_specular_);
+    }
+    return parts;
 }
 
 Layered::Shares Layered::shares(const Parts& parts) const noexcept
@@ -90,35 +98,35 @@ Layered::Scattered Layered::scattered(const Parts& parts, const Shares& shares, 
     return sum;
 }
 
-Spectrum Layered::value_per_sr(Direction to_viewer, Direction to_light) const noexcept
+Spectrum Layered::value_per_sr(Direction to_viewer, Direction to_light, LobeSet set) const noexcept
 {
-    const Parts all = parts(to_viewer.z);
-    return scattered(all, shares(all), to_viewer, to_light).value_per_sr;
+    const Parts wanted = parts(to_viewer.z, set);
+    return scattered(wanted, shares(wanted), to_viewer, to_light).value_per_sr;
 }
 
-double Layered::density_per_sr(Direction to_viewer, Direction to_light) const noexcept
+double Layered::density_per_sr(Direction to_viewer, Direction to_light, LobeSet set) const noexcept
 {
-    const Parts all = parts(to_viewer.z);
-    return scattered(all, shares(all), to_viewer, to_light).density_per_sr;
+    const Parts wanted = parts(to_viewer.z, set);
+    return scattered(wanted, shares(wanted), to_viewer, to_light).density_per_sr;
 }
 
-std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, UnitSquare u) const noexcept
+std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, UnitSquare u, LobeSet set) const noexcept
 {
     if (!(to_viewer.z > 0))
         return {};
-    const Parts all = parts(to_viewer.z);
-    const Shares share = shares(all);
+    const Parts wanted = parts(to_viewer.z, set);
+    const Shares share = shares(wanted);
     Direction to_light;
     if (choice < share.specular_reflection) {
         if (smooth_)
-            return BsdfSample{mirrored(to_viewer), all.specular_reflectance / share.specular_reflection, 0, true,
+            return BsdfSample{mirrored(to_viewer), wanted.specular_reflectance / share.specular_reflection, 0, true,
                               false};
         to_light = Ward(roughness_).sample(to_viewer, u);
         if (!(to_light.z > 0))
             return {}; // lost below the surface
     } else if ((choice -= share.specular_reflection) < share.specular_transmission) {
         if (smooth_)
-            return BsdfSample{-to_viewer, all.specular_transmittance / share.specular_transmission, 0, true, true};
+            return BsdfSample{-to_viewer, wanted.specular_transmittance / share.specular_transmission, 0, true, true};
         to_light = RoughTransmission(roughness_).sample(to_viewer, u);
         if (!(to_light.z < 0))
             return {};
@@ -130,7 +138,7 @@ std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, Un
         if (through && share.diffuse_transmission > 0)
             to_light.z = -to_light.z;
     }
-    const Scattered found = scattered(all, share, to_viewer, to_light);
+    const Scattered found = scattered(wanted, share, to_viewer, to_light);
     if (!(found.density_per_sr > 0))
         return {};
     return BsdfSample{to_light, found.value_per_sr * (std::fabs(to_light.z) / found.density_per_sr),
@@ -139,12 +147,12 @@ std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, Un
 
 Spectrum Layered::straight_transmittance(Direction to_viewer) const noexcept
 {
-    return smooth_ && to_viewer.z > 0 ? parts(to_viewer.z).specular_transmittance : Spectrum{};
+    return smooth_ && to_viewer.z > 0 ? parts(to_viewer.z, LobeSet::specular).specular_transmittance : Spectrum{};
 }
 
 Lobes Layered::lobes() const noexcept
 {
-    const Parts along_normal = parts(1);
+    const Parts along_normal = parts(1, LobeSet::all);
     const double entering = has_fresnel_ ? 1 - mean_grazing_gain : 1;
     const bool mirror_like = !along_normal.specular_reflectance.is_black();
     const bool passes = !along_normal.specular_transmittance.is_black();

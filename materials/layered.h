@@ -24,9 +24,10 @@ public:
     explicit Layered(const Metal& metal) noexcept;
     explicit Layered(const Trans& trans) noexcept;
 
-    Spectrum value_per_sr(Direction to_viewer, Direction to_light) const noexcept;
-    double density_per_sr(Direction to_viewer, Direction to_light) const noexcept;
-    std::optional<BsdfSample> sample(Direction to_viewer, double choice, UnitSquare u) const noexcept;
+    Spectrum value_per_sr(Direction to_viewer, Direction to_light, LobeSet set = LobeSet::all) const noexcept;
+    double density_per_sr(Direction to_viewer, Direction to_light, LobeSet set = LobeSet::all) const noexcept;
+    std::optional<BsdfSample> sample(Direction to_viewer, double choice, UnitSquare u,
+                                     LobeSet set = LobeSet::all) const noexcept;
     Spectrum straight_transmittance(Direction to_viewer) const noexcept;
     Lobes lobes() const noexcept;
 
@@ -43,7 +44,8 @@ private:
     Layered(Spectrum colour, double specularity, double roughness, double transmission, double transmitted_specular,
             bool tinted_highlight) noexcept;
     double fresnel_increase(double cosine) const noexcept;
-    Parts parts(double cos_viewer) const noexcept;
+    /// Lobes outside the set are black.
+    Parts parts(double cos_viewer, LobeSet set) const noexcept;
     Shares shares(const Parts& parts) const noexcept;
     struct Scattered {
         Spectrum value_per_sr;

@@ -262,6 +262,32 @@ TEST(Bsdf, TheIntegralOfTheValueIsTheMeanWeight)
     }
 }
 
+TEST(Bsdf, DiffuseAndSpecularLobesAskedApartAddUpToTheWhole)
+{
+    for (const Named& m : rough_materials()) {
+        SCOPED_TRACE(m.name);
+        const Bsdf bsdf(m.material, true);
+        for (const double light_deg : {10.0, 60.0, 130.0, 175.0}) {
+            const Direction from = at(40), to = at(light_deg, 160);
+            const Spectrum all = bsdf.value_per_sr(from, to), diffuse = bsdf.value_per_sr(from, to, LobeSet::diffuse),
+                           specular = bsdf.value_per_sr(from, to, LobeSet::specular);
+            EXPECT_NEAR(all.g, diffuse.g + specular.g, 1e-14 * (1 + all.g));
+        }
+        Spectrum whole = albedo(bsdf, at(40), 200000), parts;
+        for (const LobeSet set : {LobeSet::diffuse, LobeSet::specular}) {
+            Spectrum sum;
+            RandomStream random(4);
+            for (int i = 0; i < 200000; ++i) {
+                const double choice = random.next();
+                if (const auto s = bsdf.sample(at(40), choice, random.square(), set))
+                    sum += s->weight;
+            }
+            parts += sum / 200000;
+        }
+        EXPECT_NEAR(whole.g, parts.g, 0.01);
+    }
+}
+
 TEST(Bsdf, DiffuseReflectanceFollowsTheManual)
 {
     // Colour times (1 - specularity); of Trans the share that does not pass, and of what passes the scattered share.
