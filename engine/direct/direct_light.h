@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/direct/path_random.h"
 #include "engine/direct/vertex.h"
+#include "engine/sampling/path_random.h"
 #include "engine/sources/source_list.h"
 
 namespace lightwell {
