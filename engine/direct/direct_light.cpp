@@ -32,6 +32,7 @@ double shadow_ray_weight(double shadow_density, double scattered_density) noexce
 /// Gathering at one vertex.
 struct DirectLight::Task {
     const Vertex& vertex;
+    const GatherWish& wish;
     Gathered& sum;
 };
 
@@ -50,10 +51,18 @@ void DirectLight::add(const Task& task, const SourceSample& sample, double densi
     const Spectrum seen = rays_.transmittance(shadow_ray(vertex.hit, sample));
     if (seen.is_black())
         return;
-    const double scattered = found_by_scattering ? vertex.bsdf.density_per_sr(vertex.to_viewer, local) : 0;
+    const LobeSet set = task.wish.scattered;
+    const double scattered = found_by_scattering ? vertex.bsdf.density_per_sr(vertex.to_viewer, local, set) : 0;
     const double weight = shadow_ray_weight(density_per_sr, scattered);
-    const Spectrum light = sample.radiance * seen * (weight * std::fabs(local.z) / density_per_sr);
-    task.sum.radiance += light * value;
+    const Spectrum light = sample.radiance * seen * (std::fabs(local.z) / density_per_sr);
+    if (set == LobeSet::all) {
+        task.sum.radiance += light * value * weight;
+        if (local.z > 0)
+            task.sum.irradiance += light * weight;
+        return;
+    }
+    const Spectrum found_too = vertex.bsdf.value_per_sr(vertex.to_viewer, local, set);
+    task.sum.radiance += light * (value - found_too * (1 - weight));
     if (local.z > 0)
         task.sum.irradiance += light;
 }
@@ -111,23 +120,25 @@ void DirectLight::sky(const Task& task, PathRandom& random, SourceShares& shares
     }
 }
 
-Gathered DirectLight::gather(const Vertex& vertex, int rays, PathRandom& random, SourceShares& shares) const
+Gathered DirectLight::gather(const Vertex& vertex, const GatherWish& wish, PathRandom& random,
+                             SourceShares& shares) const
 {
     Gathered sum;
-    const Task task{vertex, sum};
+    const Task task{vertex, wish, sum};
     shares.from = vertex.hit.position;
     shares.normal = vertex.side;
     shares.transmits = vertex.transmits();
-    shares.lamp_rays = shares.sky_rays = rays;
+    shares.lamp_rays = shares.sky_rays = wish.rays;
     shares.portal_share = 0;
     shares.lamp_total = 0;
-    if (!sources_.lamps().empty())
+    if (wish.lamps && !sources_.lamps().empty())
         lamps(task, random, shares);
-    for (const SunSource& sun : sources_.suns()) {
-        const SourceSample sample = sun.sample(random.pair());
-        add(task, sample, sample.density_per_sr, true);
-    }
-    if (!sources_.sky().empty())
+    if (wish.suns)
+        for (const SunSource& sun : sources_.suns()) {
+            const SourceSample sample = sun.sample(random.pair());
+            add(task, sample, sample.density_per_sr, true);
+        }
+    if (wish.sky && !sources_.sky().empty())
         sky(task, random, shares);
     return sum;
 }

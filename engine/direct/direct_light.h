@@ -29,6 +29,14 @@ struct Gathered {
 /// Source  Veach 1997, balance heuristic with cutoff
 double shadow_ray_weight(double shadow_density, double scattered_density) noexcept;
 
+/// What is wanted of the sources at a vertex.
+struct GatherWish {
+    int rays = 1; ///< shadow rays to lamps, shared out by potential, and to the sky
+    bool lamps = true, suns = true, sky = true;
+    /// Lobes whose scattered rays find sources too; the light of the others comes by shadow rays alone.
+    LobeSet scattered = LobeSet::all;
+};
+
 /// Light straight from the sources, by shadow rays.
 /// Error: unbiased together with scattered rays that carry 1 - shadow_ray_weight().
 /// Source  Ward 1994, Section 3.1 (direct component)
@@ -36,8 +44,7 @@ class DirectLight {
 public:
     DirectLight(const SourceList& sources, const RayQueries& rays) : sources_(sources), rays_(rays) {}
 
-    /// @param rays  shadow rays to lamps, shared out by potential, and to the sky
-    Gathered gather(const Vertex& vertex, int rays, PathRandom& random, SourceShares& shares) const;
+    Gathered gather(const Vertex& vertex, const GatherWish& wish, PathRandom& random, SourceShares& shares) const;
 
     /// Density with which gather() would have aimed a shadow ray in the direction of a lamp that a ray has met.
     double lamp_density(const SourceShares& shares, int lamp, const Direction& direction,

@@ -13,6 +13,14 @@ constexpr int first_rays = 4, later_rays = 1;
 constexpr int sure_scatterings = 3;
 /// Even a path that loses nothing ends some day.
 constexpr double most_survival = 0.9999;
+/// Share of the vertices behind a scattering at which lamps are tested in full: elsewhere the deep field's direct light
+/// stands in, and the difference between the two, found here, keeps the sum unbiased.
+constexpr double tested_share = 0.125;
+
+bool is_diffuse(const Lobes& lobes)
+{
+    return !lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black();
+}
 
 } // namespace
 
@@ -26,29 +34,44 @@ struct PathTracer::Walk {
     bool at_first = true;          ///< no scattering has happened yet
     std::optional<Hit> first;      ///< what the ray from the eye met
     bool first_is_diffuse = false; ///< so that its scattered light tells its irradiance
-    Spectrum first_reflectance;    ///< diffuse
-    Spectrum direct_irradiance;    ///< on the first surface
-    double closeness_per_m = 0;
-    bool no_shadow_rays = true;   ///< the last scattering was a single direction: sources are met in full
+    /// What has happened to the light of lamps and suns that a ray meets.
+    enum class Sources { in_full, weighted, answered } sources = Sources::in_full;
     double scattered_density = 0; ///< of the last scattering
     SourceShares shares;          ///< of the shadow rays there
     SourceShares here;            ///< of the shadow rays at this vertex; they become `shares` when the path bends
     int scatterings = 0;
+    bool straight_from_receiver = false; ///< of an arrival, before anything bends it
+    bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
+    int replicate = 0;
+    std::vector<Dependence>* dependences = nullptr; ///< of an arrival: what comes from the deep field is not known yet
 
-    void add(Spectrum light)
+    void add(Spectrum light, double weight = 1)
     {
         radiance += throughput * light;
-        irradiance += arriving_throughput * light;
+        irradiance += arriving_throughput * light * weight;
     }
     /// Weight of a source met by a scattered ray against shadow rays of this density.
     double weight(double shadow_density) const
     {
-        return no_shadow_rays ? 1 : 1 - shadow_ray_weight(shadow_density, scattered_density);
+        return sources == Sources::in_full ? 1 : 1 - shadow_ray_weight(shadow_density, scattered_density);
     }
 };
 
-PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources)
-    : scene_(scene), rays_(rays), sources_(sources), direct_(sources, rays), white_(Plastic{Spectrum::grey(1), 0, 0})
+/// Ambient irradiance on both sides of a vertex: in numbers, or as shares of the deep field's sites.
+struct PathTracer::AmbientHere {
+    struct Side {
+        Spectrum reflected; ///< of what falls on this side, the share that goes to the viewer
+        CachedAmbient cached;
+        DeepField::Weight weights[DeepField::most_weights];
+        std::size_t count = 0; ///< of weights; 0: cached
+    };
+    Side sides[2]; ///< viewer's, other
+};
+
+PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
+                       const AmbientLight& ambient)
+    : scene_(scene), rays_(rays), sources_(sources), ambient_(ambient), direct_(sources, rays),
+      white_(Plastic{Spectrum::grey(1), 0, 0})
 {
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;
@@ -62,11 +85,19 @@ PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceL
 void PathTracer::meet_distant(Walk& walk) const
 {
     const Direction direction = walk.ray.direction;
+    const bool in_full = walk.sources == Walk::Sources::in_full;
     if (!sources_.sky().empty()) {
         const Spectrum radiance = sources_.sky().radiance(direction);
-        if (!radiance.is_black())
-            walk.add(radiance * walk.weight(walk.no_shadow_rays ? 0 : direct_.sky_density(walk.shares, direction)));
+        if (!radiance.is_black()) {
+            const double weight = walk.weight(in_full ? 0 : direct_.sky_density(walk.shares, direction));
+            if (walk.straight_from_receiver) // an arrival tells what its ray sees apart from what it counts for
+                walk.add(radiance, weight);
+            else
+                walk.add(radiance * weight);
+        }
     }
+    if (walk.sources == Walk::Sources::answered)
+        return;
     for (const SunSource& sun : sources_.suns())
         if (const double density = sun.density_per_sr(direction); density > 0)
             walk.add(sun.radiance * walk.weight(density));
@@ -80,48 +111,99 @@ void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& materi
         return;
     const int lamp = sources_.lamp_at(hit);
     double shadow_density = 0;
-    if (lamp >= 0 && !walk.no_shadow_rays) {
-        if (std::holds_alternative<Illum>(material))
+    if (lamp >= 0 && walk.sources != Walk::Sources::in_full) {
+        if (walk.sources == Walk::Sources::answered || std::holds_alternative<Illum>(material))
             return; // its light has come by shadow rays alone
         shadow_density = direct_.lamp_density(walk.shares, lamp, direction, hit);
     }
     walk.add(radiance * walk.weight(shadow_density));
 }
 
-void PathTracer::gather_at(Walk& walk, const Vertex& vertex, PathRandom& random) const
+bool PathTracer::find_ambient(const Walk& walk, const Vertex& vertex, AmbientHere& here) const
 {
-    const bool first = walk.at_first;
-    const Gathered direct = direct_.gather(vertex, first ? first_rays : later_rays, random, walk.here);
-    walk.radiance += walk.throughput * direct.radiance;
-    if (first)
-        walk.irradiance = walk.direct_irradiance = direct.irradiance;
-    else
-        walk.irradiance += walk.arriving_throughput * direct.radiance;
+    const bool deep = walk.bent;
+    if (deep ? ambient_.deep == nullptr : ambient_.cache == nullptr)
+        return false;
+    const Lobes& lobes = vertex.bsdf.lobes();
+    here.sides[0].reflected = lobes.diffuse_reflectance;
+    here.sides[1].reflected = lobes.diffuse_transmittance;
+    for (int i = 0; i < 2; ++i) {
+        AmbientHere::Side& side = here.sides[i];
+        if (side.reflected.is_black() && !(i == 0 && walk.at_first))
+            continue;
+        const Direction normal = i == 0 ? vertex.side : -vertex.side;
+        if (deep)
+            side.count = ambient_.deep->weights(vertex.hit.position, normal, side.weights);
+        if (deep ? side.count == 0 : !ambient_.cache->irradiance(vertex.hit.position, normal, side.cached))
+            return false;
+    }
+    return true;
 }
 
-bool PathTracer::scatter(Walk& walk, const Vertex& vertex, PathRandom& random) const
+void PathTracer::add_ambient(Walk& walk, const AmbientHere& here) const
 {
-    const double choice = random.one();
-    const std::optional<BsdfSample> scattered = vertex.bsdf.sample(vertex.to_viewer, choice, random.pair());
-    const Direction local = scattered ? scattered->to_light : Direction{};
-    const Direction world = scattered && scattered->straight ? walk.ray.direction : vertex.frame.to_world(local);
-    if (!scattered || scattered->weight.is_black() || !vertex.same_side(world, local))
-        return false;
-    if (walk.at_first && !scattered->delta && local.z > 0)
-        walk.arriving_throughput = Spectrum::grey(local.z / scattered->density_per_sr);
-    else if (walk.at_first)
-        walk.arriving_throughput = {};
-    else
-        walk.arriving_throughput *= scattered->weight;
-    walk.throughput *= scattered->weight;
-    walk.ray = {vertex.hit.leave(world), normalized(world), infinity};
-    if (!scattered->straight) { // a straight passage leaves the weights of the last scattering as they are
-        walk.shares = walk.here;
-        walk.no_shadow_rays = scattered->delta;
-        walk.scattered_density = scattered->density_per_sr;
+    for (const AmbientHere::Side& side : here.sides) {
+        if (walk.bent && walk.dependences != nullptr) {
+            for (std::size_t i = 0; i < side.count; ++i)
+                walk.dependences->push_back(
+                    {side.weights[i].site, walk.arriving_throughput * side.reflected * (side.weights[i].weight / pi)});
+            continue;
+        }
+        Spectrum irradiance;
+        if (walk.bent) {
+            for (std::size_t i = 0; i < side.count; ++i)
+                irradiance += ambient_.deep->ambient(side.weights[i].site, walk.replicate) * side.weights[i].weight;
+        } else if (const double level = photopic(side.cached.irradiance); level > 0) {
+            const double off = side.cached.deviation[static_cast<std::size_t>(walk.replicate)];
+            irradiance = side.cached.irradiance * std::fmax(0, 1 + off / level);
+        }
+        walk.add(irradiance * side.reflected / pi);
+        if (walk.at_first && &side == here.sides)
+            walk.irradiance = irradiance;
     }
-    ++walk.scatterings;
-    walk.at_first = false;
+}
+
+void PathTracer::gather_at(Walk& walk, const Vertex& vertex, const GatherWish& wish, double share,
+                           PathRandom& random) const
+{
+    const Gathered direct = direct_.gather(vertex, wish, random, walk.here);
+    walk.radiance += walk.throughput * direct.radiance * share;
+    if (walk.at_first)
+        walk.irradiance += direct.irradiance * share;
+    else
+        walk.irradiance += walk.arriving_throughput * direct.radiance * share;
+}
+
+void PathTracer::gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here,
+                                       PathRandom& random) const
+{
+    GatherWish wish{walk.bent ? later_rays : first_rays, true, true, false, LobeSet::specular};
+    const Lobes& lobes = vertex.bsdf.lobes();
+    const bool field_stands_in =
+        walk.bent && !lobes.glossy && lobes.diffuse_transmittance.is_black() && !sources_.lamps().empty();
+    if (!field_stands_in) {
+        gather_at(walk, vertex, wish, 1, random);
+        return;
+    }
+    if (!sources_.suns().empty()) {
+        wish.lamps = false;
+        gather_at(walk, vertex, wish, 1, random);
+    }
+    Spectrum usual;
+    const AmbientHere::Side& side = here.sides[0];
+    for (std::size_t i = 0; i < side.count; ++i)
+        usual += ambient_.deep->direct(side.weights[i].site) * side.weights[i].weight;
+    usual = usual * side.reflected / pi;
+    walk.add(usual);
+    if (random.one() < tested_share) {
+        wish = {first_rays, true, false, false, LobeSet::specular};
+        gather_at(walk, vertex, wish, 1 / tested_share, random);
+        walk.add(usual * (-1 / tested_share));
+    }
+}
+
+bool PathTracer::survives(Walk& walk, PathRandom& random) const
+{
     if (walk.scatterings < sure_scatterings)
         return true;
     const double survival =
@@ -133,6 +215,44 @@ bool PathTracer::scatter(Walk& walk, const Vertex& vertex, PathRandom& random) c
     return true;
 }
 
+bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const
+{
+    const double choice = random.one();
+    const std::optional<BsdfSample> scattered = vertex.bsdf.sample(vertex.to_viewer, choice, random.pair(), set);
+    const Direction local = scattered ? scattered->to_light : Direction{};
+    const Direction world = scattered && scattered->straight ? walk.ray.direction : vertex.frame.to_world(local);
+    if (!scattered || scattered->weight.is_black() || !vertex.same_side(world, local))
+        return false;
+    if (!walk.at_first)
+        walk.arriving_throughput *= scattered->weight;
+    else if (!scattered->delta && local.z > 0 && set == LobeSet::all)
+        walk.arriving_throughput = Spectrum::grey(local.z / scattered->density_per_sr);
+    else // its irradiance is known already, or cannot be told by this ray
+        walk.arriving_throughput = {};
+    walk.throughput *= scattered->weight;
+    walk.ray = {vertex.hit.leave(world), normalized(world), infinity};
+    if (!scattered->straight) { // a straight passage leaves the weights of the last scattering as they are
+        walk.straight_from_receiver = false;
+        walk.shares = walk.here;
+        walk.sources = scattered->delta ? Walk::Sources::in_full : Walk::Sources::weighted;
+        walk.scattered_density = scattered->density_per_sr;
+        walk.bent = walk.bent || !scattered->delta;
+    }
+    ++walk.scatterings;
+    walk.at_first = false;
+    return survives(walk, random);
+}
+
+const Material* PathTracer::seen_material(const Walk& walk, const Hit& hit) const
+{
+    const auto modifier = static_cast<std::size_t>(hit.modifier);
+    const Material* material = materials_[modifier];
+    const bool from_behind = dot(hit.normal, walk.ray.direction) > 0;
+    if (std::holds_alternative<Illum>(*material) && (walk.sources == Walk::Sources::in_full || from_behind))
+        return alternates_[modifier];
+    return material;
+}
+
 bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
 {
     Hit hit;
@@ -142,17 +262,10 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     }
     if (!walk.first)
         walk.first = hit;
-    if (walk.scatterings ==
-        1) // arriving_throughput / pi turns the mean over scattered rays into the cosine-weighted one
-        walk.closeness_per_m = walk.arriving_throughput.max() / (pi * hit.t);
-    const auto modifier = static_cast<std::size_t>(hit.modifier);
-    const Material* material = materials_[modifier];
-    if (std::holds_alternative<Illum>(*material) && (walk.no_shadow_rays || dot(hit.normal, walk.ray.direction) > 0)) {
-        material = alternates_[modifier];
-        if (material == nullptr) { // invisible: the ray goes on as if it had met nothing
-            walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity};
-            return true;
-        }
+    const Material* material = seen_material(walk, hit);
+    if (material == nullptr) { // invisible: the ray goes on as if it had met nothing
+        walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity};
+        return true;
     }
     if (is_emitter(*material)) {
         meet_emitter(walk, hit, *material);
@@ -167,13 +280,16 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
         walk.arriving_throughput *= kept;
     }
     const Lobes& lobes = vertex.bsdf.lobes();
-    if (walk.at_first) {
-        walk.first_is_diffuse = !lobes.diffuse_reflectance.is_black();
-        walk.first_reflectance = lobes.diffuse_reflectance;
+    walk.first_is_diffuse = walk.at_first ? !lobes.diffuse_reflectance.is_black() : walk.first_is_diffuse;
+    AmbientHere here;
+    if (is_diffuse(lobes) && find_ambient(walk, vertex, here)) {
+        add_ambient(walk, here);
+        gather_beside_ambient(walk, vertex, here, random);
+        return (lobes.glossy || lobes.delta) && scatter(walk, vertex, LobeSet::specular, random);
     }
-    if (!lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black() || lobes.glossy)
-        gather_at(walk, vertex, random);
-    return scatter(walk, vertex, random);
+    if (is_diffuse(lobes) || lobes.glossy)
+        gather_at(walk, vertex, {walk.at_first ? first_rays : later_rays}, 1, random);
+    return scatter(walk, vertex, LobeSet::all, random);
 }
 
 void PathTracer::run(Walk& walk, PathRandom& random) const
@@ -182,17 +298,15 @@ void PathTracer::run(Walk& walk, PathRandom& random) const
     }
 }
 
-PathSample PathTracer::sample(const Ray& ray, PathRandom& random) const
+PathSample PathTracer::sample(const Ray& ray, int replicate, PathRandom& random) const
 {
     Walk walk;
     walk.ray = ray;
+    walk.replicate = replicate;
     run(walk, random);
     PathSample result;
     result.radiance = walk.radiance;
     result.irradiance = walk.irradiance;
-    result.indirect_irradiance = walk.irradiance - walk.direct_irradiance;
-    result.diffuse_reflectance = walk.first_reflectance;
-    result.closeness_per_m = walk.closeness_per_m;
     if (!walk.first)
         return result;
     const Hit& first = *walk.first;
@@ -201,20 +315,120 @@ PathSample PathTracer::sample(const Ray& ray, PathRandom& random) const
     result.normal = dot(first.normal, ray.direction) <= 0 ? first.normal : -first.normal;
     // A surface without a diffuse lobe tells nothing about what falls on it: ask with a white sensor there.
     if (!walk.first_is_diffuse)
-        result.irradiance = irradiance(first, result.normal, random);
+        result.irradiance = irradiance({first.position, result.normal, first.error_m}, replicate, random);
     return result;
 }
 
-Spectrum PathTracer::irradiance(Hit here, const Direction& normal, PathRandom& random) const
+Vertex PathTracer::white_vertex(const Receiver& receiver) const
 {
-    here.normal = here.shading_normal = normal;
-    const Vertex vertex(here, -normal, white_);
+    Hit here;
+    here.position = receiver.position;
+    here.error_m = receiver.error_m;
+    here.normal = here.shading_normal = receiver.normal;
+    return Vertex(here, -receiver.normal, white_);
+}
+
+Spectrum PathTracer::irradiance(const Receiver& receiver, int replicate, PathRandom& random) const
+{
+    const Vertex vertex = white_vertex(receiver);
     Walk walk;
-    walk.ray.direction = -normal;
-    gather_at(walk, vertex, random);
-    if (scatter(walk, vertex, random))
+    walk.ray.direction = -receiver.normal;
+    walk.replicate = replicate;
+    AmbientHere here;
+    if (find_ambient(walk, vertex, here)) {
+        add_ambient(walk, here);
+        gather_beside_ambient(walk, vertex, here, random);
+        return walk.irradiance;
+    }
+    gather_at(walk, vertex, {first_rays}, 1, random);
+    if (scatter(walk, vertex, LobeSet::all, random))
         run(walk, random);
     return walk.irradiance;
+}
+
+Arrival PathTracer::arrive(const Receiver& receiver, const Direction& direction, PathRandom& random,
+                           std::vector<Dependence>& dependences) const
+{
+    const Vertex vertex = white_vertex(receiver);
+    Walk walk;
+    Arrival arrival;
+    if (!sources_.sky().empty()) {
+        const GatherWish sky{later_rays, false, false, true, LobeSet::all};
+        arrival.irradiance = direct_.gather(vertex, sky, random, walk.here).irradiance;
+    }
+    walk.ray = {vertex.hit.leave(direction), direction, infinity};
+    walk.arriving_throughput = Spectrum::grey(pi);
+    walk.at_first = false;
+    walk.bent = true;
+    walk.sources = Walk::Sources::answered;
+    walk.shares = walk.here;
+    walk.scattered_density = cosine_hemisphere_density_per_sr(dot(direction, receiver.normal));
+    walk.scatterings = 1;
+    walk.straight_from_receiver = true;
+    walk.dependences = &dependences;
+    run(walk, random);
+    arrival.irradiance += walk.irradiance;
+    arrival.radiance = walk.radiance;
+    if (walk.first)
+        arrival.distance_m = length(walk.first->position - receiver.position);
+    return arrival;
+}
+
+bool PathTracer::beside(const Receiver& receiver, const Vec3& offset, double lift_m, Receiver& found) const
+{
+    const Point lifted = receiver.position + receiver.normal * lift_m;
+    Hit hit;
+    if (rays_.closest({lifted, offset, 1}, hit) ||
+        !rays_.closest({lifted + offset, -receiver.normal, 2 * lift_m}, hit))
+        return false;
+    const bool front = dot(hit.normal, receiver.normal) > 0;
+    found = {hit.position, front ? hit.normal : -hit.normal, hit.error_m};
+    return true;
+}
+
+double PathTracer::distance_m(const Receiver& receiver, const Direction& direction) const
+{
+    const Vertex vertex = white_vertex(receiver);
+    Hit hit;
+    return rays_.closest({vertex.hit.leave(direction), direction, infinity}, hit) ? hit.t : infinity;
+}
+
+Spectrum PathTracer::direct(const Receiver& receiver, PathRandom& random) const
+{
+    SourceShares shares;
+    const GatherWish lamps{first_rays, true, false, false, LobeSet::specular};
+    return direct_.gather(white_vertex(receiver), lamps, random, shares).irradiance;
+}
+
+void PathTracer::receivers_along(const Ray& ray, int scatterings, PathRandom& random,
+                                 std::vector<Receiver>& found) const
+{
+    Walk walk;
+    walk.ray = ray;
+    int bends = 0;
+    constexpr int most_steps = 32;
+    for (int step = 0; step < most_steps; ++step) {
+        Hit hit;
+        if (!rays_.closest(walk.ray, hit))
+            return;
+        const Material* material = seen_material(walk, hit);
+        if (material == nullptr) {
+            walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity};
+            continue;
+        }
+        if (is_emitter(*material))
+            return;
+        const Vertex vertex(hit, walk.ray.direction, *material);
+        const Lobes& lobes = vertex.bsdf.lobes();
+        if (!lobes.diffuse_reflectance.is_black() || walk.at_first)
+            found.push_back({hit.position, vertex.side, hit.error_m});
+        if (!lobes.diffuse_transmittance.is_black())
+            found.push_back({hit.position, -vertex.side, hit.error_m});
+        if (is_diffuse(lobes) && bends++ == scatterings)
+            return;
+        if (!scatter(walk, vertex, LobeSet::all, random))
+            return;
+    }
 }
 
 } // namespace lightwell

@@ -1,46 +1,64 @@
 #pragma once
 
 #include "engine/direct/direct_light.h"
+#include "engine/simulate/ambient_light.h"
 
 namespace lightwell {
 
 /// What one path through a picture element brings back.
 struct PathSample {
-    Spectrum radiance;            ///< towards the eye
-    Spectrum irradiance;          ///< on the first surface met, on the viewer's side
-    Spectrum indirect_irradiance; ///< the part of it that came by scattered rays
-    Spectrum diffuse_reflectance; ///< of that surface; black where it does not scatter diffusely
-    double closeness_per_m = 0;   ///< an estimate of the cosine-weighted mean of 1 / distance around that surface
+    Spectrum radiance;   ///< towards the eye
+    Spectrum irradiance; ///< on the first surface met, on the viewer's side
     bool met_surface = false;
     double distance_m = infinity; ///< to that surface
     Direction normal{0, 0, 0};    ///< on the viewer's side
 };
 
-/// Monte Carlo solution of the rendering equation: shadow rays to the sources at every vertex, scattered rays for all
-/// the rest, any number of bounces, ended by roulette.
-/// Error: unbiased
+/// Solution of the rendering equation along paths: shadow rays to the sources at every vertex, scattered rays for all
+/// the rest, any number of bounces, ended by roulette. With ambient light at hand, a vertex takes its diffusely
+/// scattered light from there, and only mirrored, refracted and glossy rays go on.
+/// Error: unbiased without ambient light
 /// Source  Ward 1994, Eq. (1); Kajiya 1986
-class PathTracer {
+class PathTracer : public HemisphereRays {
 public:
-    PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources);
+    PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources, const AmbientLight& ambient = {});
 
-    PathSample sample(const Ray& ray, PathRandom& random) const;
-    /// One estimate of the irradiance at a place on the side of the normal, W/m^2.
-    /// @param here  position and its error; the rest is not used
-    Spectrum irradiance(Hit here, const Direction& normal, PathRandom& random) const;
+    /// @param replicate  of the ambient light
+    PathSample sample(const Ray& ray, int replicate, PathRandom& random) const;
+    /// One estimate of the irradiance at a receiver, W/m^2.
+    Spectrum irradiance(const Receiver& receiver, int replicate, PathRandom& random) const;
+
+    Arrival arrive(const Receiver& receiver, const Direction& direction, PathRandom& random,
+                   std::vector<Dependence>& dependences) const override;
+    bool beside(const Receiver& receiver, const Vec3& offset, double lift_m, Receiver& found) const override;
+    double distance_m(const Receiver& receiver, const Direction& direction) const override;
+    Spectrum direct(const Receiver& receiver, PathRandom& random) const override;
+
+    /// The places along a path that receive ambient light, on the side that a ray came from and, where light passes
+    /// diffusely, on the other: those the eye sees by mirrored and straight rays, then those seen from there.
+    /// @param scatterings  diffuse ones; 0: only what the eye sees
+    void receivers_along(const Ray& ray, int scatterings, PathRandom& random, std::vector<Receiver>& found) const;
 
 private:
     struct Walk;
-    bool scatter(Walk& walk, const Vertex& vertex, PathRandom& random) const;
+    struct AmbientHere;
+    bool find_ambient(const Walk& walk, const Vertex& vertex, AmbientHere& here) const;
+    void add_ambient(Walk& walk, const AmbientHere& here) const;
+    void gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here, PathRandom& random) const;
+    void gather_at(Walk& walk, const Vertex& vertex, const GatherWish& wish, double share, PathRandom& random) const;
+    bool scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const;
+    bool survives(Walk& walk, PathRandom& random) const;
     void meet_distant(Walk& walk) const;
+    const Material* seen_material(const Walk& walk, const Hit& hit) const;
     bool meet_surface(Walk& walk, PathRandom& random) const;
     void meet_emitter(Walk& walk, const Hit& hit, const Material& material) const;
     void run(Walk& walk, PathRandom& random) const;
-    void gather_at(Walk& walk, const Vertex& vertex, PathRandom& random) const;
+    Vertex white_vertex(const Receiver& receiver) const;
 
     const Scene& scene_;
     const RayQueries& rays_;
     const SourceList& sources_;
+    AmbientLight ambient_;
     DirectLight direct_;
     std::vector<const Material*> materials_;  ///< by modifier
     std::vector<const Material*> alternates_; ///< by modifier: what eyes see of an Illum; null: nothing

@@ -1,10 +1,8 @@
 #pragma once
 
-namespace lightwell {
+#include "engine/sampling/replicates.h"
 
-/// Independently scrambled runs behind each value: their spread gives the standard error, since samples within one
-/// low-discrepancy run are not independent.
-inline constexpr int replicates = 8;
+namespace lightwell {
 
 /// Samples that bring a median relative error found with `pilot` samples down to `wanted`, a multiple of the
 /// replicates within [replicates, most].

@@ -19,15 +19,32 @@ struct Tile {
 };
 inline constexpr int tile_size = 32;
 
+/// Techniques that can be switched off to see what each buys. `unbiased` in the settings switches all of the first
+/// three off.
+struct Techniques {
+    bool deep_field = true; ///< further bounces from engine/ambient's deep field; else by scattered rays
+    bool cache = true; ///< ambient light of the first surface by interpolation, where there are many pixels or sensors
+    bool gradients = true; ///< of the records
+    bool hessian = true;   ///< decides the distance between records; else the harmonic mean distance alone
+};
+
 struct PictureSettings {
     int width = 960, height = 540;
     int samples = 0;        ///< paths per pixel; 0: chosen from `accuracy` by a pilot run over a few hundred pixels
     double accuracy = 0.05; ///< wanted median over the pixels of standard error / luminance
     std::uint64_t seed = 1;
-    int threads = 0; ///< 0: all processors; the result does not depend on it
-    /// Each pixel is estimated by its own paths alone. Else neighbouring pixels of the same surface share their
-    /// indirect irradiance (engine/simulate/shared_irradiance.h), which is biased where it varies quickly.
-    bool unbiased = false;
+    int threads = 0;       ///< 0: all processors; the result does not depend on it
+    bool unbiased = false; ///< plain path tracing: no cache, no interpolation, only noise
+    Techniques techniques = {};
+};
+
+/// Difference of a result to plain path tracing at a few pixels or sensors, relative to their mean: what
+/// interpolation and coarse further bounces do, apart from the noise that the standard errors state.
+struct BiasEstimate {
+    double mean = 0;           ///< mean difference / mean value
+    double standard_error = 0; ///< of that
+    double spread = 0;         ///< root mean square of the single differences, noise subtracted
+    int points = 0;            ///< looked at; 0: the result is unbiased, or was not checked
 };
 
 /// Where finished tiles go, and where those of an interrupted run come from. May be called from several threads.
@@ -39,13 +56,12 @@ struct TileStore {
 struct PictureResult {
     Picture picture; ///< channels as in picture.h, with error.R, error.G, error.B, error.Y (1 standard error)
     double median_relative_error = 0; ///< of luminance, over the pixels that are not black
-    /// Root mean square over tiles of the relative difference that sharing made, beyond what noise explains.
-    double sharing_bias = 0;
+    BiasEstimate bias;
     int samples = 0;
     double seconds = 0;
 };
 
-/// Channels of the tiles that a TileStore gets: those of the result and what sharing needs.
+/// Channels of a picture and of the tiles that a TileStore gets.
 std::vector<std::string> tile_channels();
 
 struct GridSettings {
@@ -53,20 +69,25 @@ struct GridSettings {
     double accuracy = 0.02; ///< wanted median over the sensors of standard error / illuminance
     std::uint64_t seed = 1;
     int threads = 0;
+    bool unbiased = false;
+    Techniques techniques = {};
 };
 
 /// Illuminance on the front side of each sensor, with one standard error.
 struct GridResult {
     std::vector<Illuminance> values;
     std::vector<Illuminance> standard_errors;
+    BiasEstimate bias;
     double median_relative_error = 0;
     int samples = 0;
     double seconds = 0;
 };
 
+struct SimulationParts;
+
 /// A scene made ready for light: ray queries, list of sources. Rendering does not change it.
-/// Error: grids and pictures with `unbiased` are unbiased; the standard error stated with each value is that of the
-/// mean of eight independent replicates.
+/// Error: with `unbiased` only noise; else interpolated ambient light adds a bias, estimated with each result. The
+/// standard error stated with each value is that of the mean of eight independent replicates.
 class Simulation {
 public:
     /// @throws InputError from validate(scene)
@@ -84,8 +105,7 @@ public:
     GridResult illuminance(const SensorGrid& grid, const GridSettings& settings, const Progress& progress = {}) const;
 
 private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
+    std::unique_ptr<SimulationParts> parts_;
 };
 
 } // namespace lightwell

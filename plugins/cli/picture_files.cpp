@@ -80,7 +80,8 @@ std::string picture_line(const PictureResult& result, const PictureJob& job)
 {
     char text[200], bias[60] = "";
     if (!job.settings.unbiased)
-        std::snprintf(bias, sizeof bias, "bias of sharing %.2g %%, ", result.sharing_bias * 100);
+        std::snprintf(bias, sizeof bias, "bias %+.2g +- %.2g %%, ", result.bias.mean * 100,
+                      result.bias.standard_error * 100);
     std::snprintf(text, sizeof text, ": %d x %d, %d samples per pixel, median standard error %.2g %%, %s",
                   result.picture.width, result.picture.height, result.samples, result.median_relative_error * 100,
                   bias);
@@ -121,8 +122,10 @@ Status make_picture(const Simulation& simulation, const PictureJob& job, std::os
         PictureResult result = render_tiles(simulation, job, growing, line);
         result.picture.header.insert(layout.header.begin(), layout.header.end());
         result.picture.header["samples"] = std::to_string(result.samples);
-        if (!job.settings.unbiased)
-            result.picture.header["sharing_bias"] = shortest(result.sharing_bias);
+        if (!job.settings.unbiased) {
+            result.picture.header["bias"] = shortest(result.bias.mean);
+            result.picture.header["bias_standard_error"] = shortest(result.bias.standard_error);
+        }
         result.picture.header["median_relative_error"] = shortest(result.median_relative_error);
         growing.finish(result.picture);
         write_companions(result, job);

@@ -22,6 +22,7 @@ Measurement measure_sensors(const Simulation& simulation, const Check& check, in
     settings.samples = samples;
     settings.seed = seed;
     settings.threads = 1; // the cases run side by side
+    settings.unbiased = true;
     SensorGrid grid;
     for (const WeightedSensor& s : check.sensors)
         grid.sensors.push_back(s.sensor);

@@ -1,0 +1,198 @@
+#include "engine/ambient/ambient_cache.h"
+
+#include "engine/base/threads.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightwell {
+namespace {
+
+/// A candidate nearer to a record than this share of its reach needs none of its own.
+constexpr double covered_share = 0.7;
+/// Reach stays within these multiples of accuracy * harmonic mean distance, whatever the Hessian says: it is noisy.
+constexpr double least_multiple = 0.5, most_multiple = 5;
+/// ... and of the larger of the two, across.
+constexpr double most_stretch = 3;
+/// ... and in footprints.
+constexpr double least_footprints = 2.5;
+/// Predicted change within the reach, relative.
+constexpr double most_change = 1;
+constexpr std::uint64_t record_salt = 0x7265636f;
+
+/// Rows and columns for about `cells` cells, powers of two, so that a stratified run has one ray in each.
+void shape(int cells, int& rows, int& columns)
+{
+    rows = 2;
+    columns = 4;
+    while (2 * rows * columns <= cells) {
+        if (columns <= 2 * rows)
+            columns *= 2;
+        else
+            rows *= 2;
+    }
+}
+
+int cell_of(UnitSquare u, const Hemisphere& h)
+{
+    return static_cast<int>(u.u * h.rows) * h.columns + static_cast<int>(u.v * h.columns);
+}
+
+void set_reach(AmbientRecord& record, const Hemisphere& mean, double footprint_m, double size_m,
+               const CacheSettings& settings)
+{
+    AmbientSite& site = record.site;
+    site.harmonic_m = std::min(harmonic_distance_m(mean), size_m);
+    const double base = settings.accuracy * site.harmonic_m;
+    site.reach_m[0] = site.reach_m[1] = base;
+    const double level = photopic(record.irradiance);
+    if (settings.hessian && level > 0) {
+        const IrradianceHessian hessian = hessian_of(mean);
+        site.axis = hessian.axis;
+        for (int k = 0; k < 2; ++k) {
+            const double reach = std::sqrt(2 * settings.accuracy * level / std::fabs(hessian.value[k]));
+            site.reach_m[k] = std::clamp(reach, least_multiple * base, most_multiple * base);
+        }
+        site.reach_m[1] = std::min(site.reach_m[1], most_stretch * site.reach_m[0]);
+    }
+    if (settings.gradients && level > 0) {
+        const double slope = length(record.gradient.translation[1]);
+        for (double& reach : site.reach_m)
+            reach = slope > 0 ? std::min(reach, most_change * level / slope) : reach;
+    }
+    for (double& reach : site.reach_m)
+        reach = std::max(reach, least_footprints * footprint_m);
+}
+
+} // namespace
+
+bool AmbientCache::covers(const Receiver& receiver) const noexcept
+{
+    bool covered = false;
+    grid_.near(receiver.position, [&](std::uint32_t i) {
+        covered = covered || site_distance(sites_[i], receiver.position, receiver.normal) < covered_share;
+    });
+    return covered;
+}
+
+AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, const HemisphereRays& rays, double size_m,
+                                  const CacheSettings& settings) const
+{
+    const Receiver& receiver = candidate.receiver;
+    AmbientRecord record;
+    record.site.position = receiver.position;
+    record.site.normal = receiver.normal;
+    const Frame frame = frame_about(receiver.normal);
+    record.site.axis = frame.x;
+    int rows = 0, columns = 0;
+    shape(std::max(8, settings.rays / replicates), rows, columns);
+    const int each = rows * columns;
+    Hemisphere mean(frame, rows, columns);
+    std::array<double, replicates> photopic_of{};
+    std::vector<Dependence> dependences;
+    for (int r = 0; r < replicates; ++r) {
+        Spectrum sum;
+        for (std::uint32_t n = 0; n < static_cast<std::uint32_t>(each); ++n) {
+            PathRandom random(mix_bits(mix_bits(settings.seed, record_salt), static_cast<std::uint64_t>(r)),
+                              place_bits(receiver), n);
+            const UnitSquare u = random.pair();
+            const Direction direction = hemisphere_direction(frame, u);
+            dependences.clear();
+            const Arrival arrival = rays.arrive(receiver, direction, random, dependences);
+            const Spectrum later = deep_.sum(dependences, r);
+            sum += arrival.irradiance + later;
+            const auto cell = static_cast<std::size_t>(cell_of(u, mean));
+            mean.radiance[cell] += (arrival.radiance + later / pi) / replicates;
+            mean.closeness_per_m[cell] += 1 / (arrival.distance_m * replicates);
+            add_horizon(record.site, direction, arrival.distance_m);
+        }
+        record.irradiance += sum / (each * replicates);
+        photopic_of[static_cast<std::size_t>(r)] = photopic(sum / each);
+    }
+    for (std::size_t r = 0; r < replicates; ++r)
+        record.deviation[r] = static_cast<float>(photopic_of[r] - photopic(record.irradiance));
+    if (settings.gradients)
+        record.gradient = gradient_of(mean);
+    set_reach(record, mean, candidate.footprint_m, size_m, settings);
+    return record;
+}
+
+void AmbientCache::clamp_to_neighbours(AmbientRecord& record)
+{
+    // The triangle inequality: what is near a neighbour cannot be far from here.
+    const auto shrink = [](AmbientSite& site, double harmonic_m) {
+        const double ratio = harmonic_m / site.harmonic_m;
+        site.harmonic_m = harmonic_m;
+        site.reach_m[0] *= ratio;
+        site.reach_m[1] *= ratio;
+    };
+    grid_.near(record.site.position, [&](std::uint32_t i) {
+        const double apart = length(sites_[i].position - record.site.position);
+        if (sites_[i].harmonic_m + apart < record.site.harmonic_m)
+            shrink(record.site, sites_[i].harmonic_m + apart);
+    });
+}
+
+void AmbientCache::insert(std::vector<AmbientRecord>&& records)
+{
+    const std::size_t before = records_.size();
+    for (AmbientRecord& record : records) {
+        clamp_to_neighbours(record);
+        sites_.push_back(record.site);
+        records_.push_back(std::move(record));
+    }
+    grid_.add(sites_, before);
+}
+
+void AmbientCache::add(std::vector<AmbientRecord> records)
+{
+    insert(std::move(records));
+}
+
+std::size_t AmbientCache::grow(const std::vector<AmbientCandidate>& candidates, const HemisphereRays& rays,
+                               double size_m, const CacheSettings& settings)
+{
+    std::vector<char> wanted(candidates.size());
+    parallel_for(candidates.size(), settings.threads,
+                 [&](std::size_t i) { wanted[i] = !covers(candidates[i].receiver); });
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < candidates.size() && records_.size() + chosen.size() < settings.most_records; ++i)
+        if (wanted[i])
+            chosen.push_back(i);
+    std::vector<AmbientRecord> made(chosen.size());
+    parallel_for(chosen.size(), settings.threads,
+                 [&](std::size_t k) { made[k] = trace(candidates[chosen[k]], rays, size_m, settings); });
+    insert(std::move(made));
+    return chosen.size();
+}
+
+bool AmbientCache::irradiance(const Point& at, const Direction& normal, CachedAmbient& found) const noexcept
+{
+    double total = 0;
+    Spectrum sum;
+    found.deviation.fill(0);
+    grid_.near(at, [&](std::uint32_t i) {
+        const double distance = site_distance(sites_[i], at, normal);
+        if (!(distance < 1))
+            return;
+        const AmbientRecord& record = records_[i];
+        const double weight = (1 - distance) * (1 - distance);
+        const Vec3 way = at - record.site.position, turn = cross(record.site.normal, normal);
+        const IrradianceGradient& g = record.gradient;
+        Spectrum here = record.irradiance;
+        const auto step = [&](int c) { return dot(way, g.translation[c]) + dot(turn, g.rotation[c]); };
+        here += Spectrum{step(0), step(1), step(2)};
+        sum += Spectrum{std::fmax(0, here.r), std::fmax(0, here.g), std::fmax(0, here.b)} * weight;
+        for (std::size_t r = 0; r < replicates; ++r)
+            found.deviation[r] += weight * static_cast<double>(record.deviation[r]);
+        total += weight;
+    });
+    if (!(total > 0))
+        return false;
+    found.irradiance = sum / total;
+    for (double& d : found.deviation)
+        d /= total;
+    return true;
+}
+
+} // namespace lightwell

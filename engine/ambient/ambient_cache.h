@@ -1,0 +1,73 @@
+#pragma once
+
+#include "engine/ambient/deep_field.h"
+#include "engine/ambient/hemisphere.h"
+
+namespace lightwell {
+
+/// Ambient irradiance at one place, with what is needed to use it around there.
+struct AmbientRecord {
+    AmbientSite site;
+    Spectrum irradiance; ///< W/m^2
+    IrradianceGradient gradient;
+    /// Photopic irradiance of each replicate minus the mean: the spread is the statistical error.
+    std::array<float, replicates> deviation{};
+};
+
+struct CacheSettings {
+    /// Error of irradiance allowed at the edge of a record's reach, relative: distances follow from it.
+    double accuracy = 0.1;
+    int rays = 512; ///< a record, shared out among the replicates
+    std::size_t most_records = 200000;
+    std::uint64_t seed = 1;
+    int threads = 0;
+    bool gradients = true; ///< false: records are averaged as they are
+    bool hessian = true;   ///< false: reach follows the harmonic mean distance alone
+};
+
+/// A place where the cache will be asked.
+struct AmbientCandidate {
+    Receiver receiver;
+    double footprint_m = 0; ///< between neighbouring candidates: no record needs a smaller reach
+};
+
+/// Ambient irradiance by interpolation between records.
+struct CachedAmbient {
+    Spectrum irradiance;
+    std::array<double, replicates> deviation{}; ///< photopic, of each replicate
+};
+
+/// Records of ambient irradiance on the surfaces that are looked at, far apart where it changes little.
+/// Grows in generations: candidates that no record covers are traced, and all of a generation's records are added at
+/// once, so that the result does not depend on the order of work.
+/// Error: biased by interpolation, about `accuracy` or less; the statistical error is in the deviations
+/// Source  Ward, Rubinstein, Clear 1988; Ward, Heckbert 1992; Krivanek et al. 2006 (neighbour clamping);
+///         Schwarzhaupt et al. 2012 (reach)
+class AmbientCache {
+public:
+    AmbientCache(const DeepField& deep, const Point& centre) : deep_(deep), grid_(centre) {}
+
+    /// One generation. @return records added
+    std::size_t grow(const std::vector<AmbientCandidate>& candidates, const HemisphereRays& rays, double size_m,
+                     const CacheSettings& settings);
+    /// Adds records that were made before: by an earlier run, by another process.
+    void add(std::vector<AmbientRecord> records);
+    /// @return false where no record answers
+    bool irradiance(const Point& at, const Direction& normal, CachedAmbient& found) const noexcept;
+
+    const std::vector<AmbientRecord>& records() const noexcept { return records_; }
+
+private:
+    bool covers(const Receiver& receiver) const noexcept;
+    AmbientRecord trace(const AmbientCandidate& candidate, const HemisphereRays& rays, double size_m,
+                        const CacheSettings& settings) const;
+    void clamp_to_neighbours(AmbientRecord& record);
+    void insert(std::vector<AmbientRecord>&& records);
+
+    const DeepField& deep_;
+    std::vector<AmbientRecord> records_;
+    std::vector<AmbientSite> sites_; ///< of the records, close together for the search
+    SiteGrid grid_;
+};
+
+} // namespace lightwell

@@ -1,0 +1,215 @@
+#include "engine/ambient/deep_field.h"
+
+#include "engine/ambient/fixed_point.h"
+#include "engine/ambient/hemisphere.h"
+#include "engine/base/threads.h"
+#include "engine/sampling/warps.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace lightwell {
+namespace {
+
+/// Rays that tell a site's surroundings before its light is asked for.
+constexpr int survey_rays = 32;
+/// A candidate nearer to a site than this share of its reach needs no site of its own: the rest is overlap, for
+/// smoothness.
+constexpr double covered_share = 0.65;
+/// Candidates looked at together; sites among them are surveyed in parallel.
+constexpr std::size_t first_batch = 64, largest_batch = 1024;
+/// Keeps random numbers of surveys, rays and direct light apart.
+constexpr std::uint64_t survey_salt = 0x73757276, ray_salt = 0x72617973, direct_salt = 0x64697265,
+                        start_salt = 0x73746172;
+
+AmbientSite surveyed(const Receiver& receiver, const HemisphereRays& rays, double size_m, const DeepSettings& settings)
+{
+    AmbientSite site;
+    site.position = receiver.position;
+    site.normal = receiver.normal;
+    const Frame frame = frame_about(receiver.normal);
+    site.axis = frame.x;
+    double closeness = 0;
+    for (std::uint32_t i = 0; i < survey_rays; ++i) {
+        PathRandom random(mix_bits(settings.seed, survey_salt), place_bits(receiver), i);
+        const Direction direction = hemisphere_direction(frame, random.pair());
+        const double distance = rays.distance_m(receiver, direction);
+        closeness += 1 / distance;
+        add_horizon(site, direction, distance);
+    }
+    site.harmonic_m = std::min(closeness > 0 ? survey_rays / closeness : infinity, size_m);
+    site.reach_m[0] = site.reach_m[1] = settings.reach_share * site.harmonic_m;
+    return site;
+}
+
+/// Tilts the weights so that values which change linearly over the surface are met exactly, as far as that leaves no
+/// weight below -most_negative of what it was: beyond the last site a line may be followed a little, not far.
+/// @param ways  to the sites
+/// Source  Lancaster, Salkauskas 1981 (moving least squares)
+void make_linear(const Direction& normal, const Vec3* ways, std::size_t count, DeepField::Weight* weights)
+{
+    constexpr double most_negative = 0.5;
+    constexpr double damping = 0.01; // of the mean square distance: two sites or a row of them leave a direction open
+    const Frame frame = frame_about(normal);
+    double sum = 0, a = 0, b = 0, aa = 0, ab = 0, bb = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double w = weights[i].weight, x = dot(ways[i], frame.x), y = dot(ways[i], frame.y);
+        sum += w;
+        a += w * x;
+        b += w * y;
+        aa += w * x * x;
+        ab += w * x * y;
+        bb += w * y * y;
+    }
+    a /= sum, b /= sum, aa /= sum, ab /= sum, bb /= sum;
+    // Weights w (1 - tilt . (way - mean)): the mean way becomes mean - covariance tilt, which is to be zero.
+    const double xx = aa - a * a, xy = ab - a * b, yy = bb - b * b, slack = damping * (aa + bb);
+    const double determinant = (xx + slack) * (yy + slack) - xy * xy;
+    const double tilt_x = determinant > 0 ? (a * (yy + slack) - b * xy) / determinant : 0;
+    const double tilt_y = determinant > 0 ? (b * (xx + slack) - a * xy) / determinant : 0;
+    double steepest = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        steepest = std::max(steepest, tilt_x * (dot(ways[i], frame.x) - a) + tilt_y * (dot(ways[i], frame.y) - b));
+    const double share = steepest > 1 + most_negative ? (1 + most_negative) / steepest : 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x = dot(ways[i], frame.x) - a, y = dot(ways[i], frame.y) - b;
+        weights[i].weight *= (1 - share * (tilt_x * x + tilt_y * y)) / sum;
+    }
+}
+
+} // namespace
+
+std::uint64_t place_bits(const Receiver& receiver) noexcept
+{
+    const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v + 0.0); };
+    const auto three = [&](const Vec3& v) { return mix_bits(mix_bits(bits(v.x), bits(v.y)), bits(v.z)); };
+    return mix_bits(three(receiver.position), three(receiver.normal));
+}
+
+bool DeepField::covers(const Point& at, const Direction& normal) const noexcept
+{
+    bool covered = false;
+    grid_.near(at, [&](std::uint32_t i) { covered = covered || site_distance(sites_[i], at, normal) < covered_share; });
+    return covered;
+}
+
+void DeepField::place(const std::vector<Receiver>& candidates, const HemisphereRays& rays, double size_m,
+                      const DeepSettings& settings)
+{
+    std::size_t batch = first_batch;
+    for (std::size_t first = 0; first < candidates.size() && sites_.size() < settings.most_sites; first += batch) {
+        if (first > 0)
+            batch = std::min(2 * batch, largest_batch);
+        const std::size_t count = std::min(batch, candidates.size() - first);
+        std::vector<AmbientSite> surveys(count);
+        parallel_for(count, settings.threads, [&](std::size_t i) {
+            const Receiver& r = candidates[first + i];
+            if (!covers(r.position, r.normal))
+                surveys[i] = surveyed(r, rays, size_m, settings);
+        });
+        const std::size_t before = sites_.size();
+        for (std::size_t i = 0; i < count && sites_.size() < settings.most_sites; ++i) {
+            const AmbientSite& site = surveys[i];
+            const bool usable = site.reach_m[0] > 0;
+            const bool covered = std::any_of(
+                sites_.begin() + static_cast<std::ptrdiff_t>(before), sites_.end(),
+                [&](const AmbientSite& s) { return site_distance(s, site.position, site.normal) < covered_share; });
+            if (!usable || covered)
+                continue;
+            sites_.push_back(site);
+            receivers_.push_back(candidates[first + i]);
+        }
+        grid_.add(sites_, before);
+    }
+}
+
+std::size_t DeepField::weights(const Point& at, const Direction& normal, Weight* found) const noexcept
+{
+    Vec3 ways[most_weights];
+    std::size_t count = 0;
+    grid_.near(at, [&](std::uint32_t i) {
+        const double distance = site_distance(sites_[i], at, normal);
+        if (distance < 1 && count < most_weights) {
+            ways[count] = sites_[i].position - at;
+            found[count++] = {i, 1 - distance};
+        }
+    });
+    make_linear(normal, ways, count, found);
+    return count;
+}
+
+std::vector<DeepField::Start> DeepField::starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
+                                                std::uint64_t seed) const
+{
+    constexpr double lift_share = 0.1; // of the reach: as far as a site answers off its plane
+    const AmbientSite& s = sites_[site];
+    const Frame frame = frame_about(s.normal);
+    std::vector<Start> found;
+    double total = 0;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        PathRandom random(mix_bits(seed, start_salt), place_bits(receivers_[site]), n);
+        const DiscPoint disc = uniform_disc(random.pair());
+        const Vec3 offset = (frame.x * disc.x + frame.y * disc.y) * s.reach_m[0];
+        Receiver there;
+        if (!rays.beside(receivers_[site], offset, lift_share * s.reach_m[0], there))
+            continue;
+        Weight around[most_weights];
+        const std::size_t sites = weights(there.position, there.normal, around);
+        for (std::size_t k = 0; k < sites; ++k)
+            if (around[k].site == site && around[k].weight > 0) {
+                found.push_back({there, around[k].weight});
+                total += around[k].weight;
+            }
+    }
+    for (Start& start : found)
+        start.weight /= total;
+    if (found.empty())
+        found.push_back({receivers_[site], 1});
+    return found;
+}
+
+void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& settings)
+{
+    const std::size_t count = sites_.size();
+    std::array<FixedPoint, replicates> systems;
+    for (FixedPoint& system : systems) {
+        system.known.resize(count);
+        system.rows.resize(count);
+    }
+    direct_.resize(count);
+    const auto each = static_cast<std::size_t>(std::max(1, settings.rays / replicates));
+    parallel_for(count, settings.threads, [&](std::size_t i) {
+        PathRandom first(mix_bits(settings.seed, direct_salt), place_bits(receivers_[i]), 0);
+        direct_[i] = rays.direct(receivers_[i], first);
+        const std::vector<Start> from = starts(i, rays, each, settings.seed);
+        std::vector<Dependence> arrived;
+        for (std::size_t r = 0; r < replicates; ++r) {
+            std::vector<Dependence>& row = systems[r].rows[i];
+            for (std::uint32_t n = 0; n < each; ++n) {
+                // Each start gets an equal share of the rays, to one.
+                const Start& start = from[n % from.size()];
+                const std::size_t sharing = (each - n % from.size() + from.size() - 1) / from.size();
+                const double weight = start.weight / static_cast<double>(sharing);
+                PathRandom random(mix_bits(mix_bits(settings.seed, ray_salt), r), place_bits(receivers_[i]), n);
+                const Direction direction = hemisphere_direction(frame_about(start.receiver.normal), random.pair());
+                arrived.clear();
+                systems[r].known[i] += rays.arrive(start.receiver, direction, random, arrived).irradiance * weight;
+                for (const Dependence& d : arrived)
+                    row.push_back({d.unknown, d.weight * weight});
+            }
+            merge_dependences(row);
+        }
+    });
+    parallel_for(replicates, settings.threads, [&](std::size_t r) { ambient_[r] = solve(systems[r]); });
+}
+
+Spectrum DeepField::sum(const std::vector<Dependence>& dependences, int replicate) const noexcept
+{
+    Spectrum sum;
+    for (const Dependence& d : dependences)
+        sum += d.weight * ambient(d.unknown, replicate);
+    return sum;
+}
+
+} // namespace lightwell

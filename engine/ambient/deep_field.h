@@ -1,0 +1,79 @@
+#pragma once
+
+#include "engine/ambient/site_grid.h"
+#include "engine/base/spectrum.h"
+#include "engine/sampling/replicates.h"
+#include "engine/transport/hemisphere_rays.h"
+
+#include <array>
+#include <vector>
+
+namespace lightwell {
+
+struct DeepSettings {
+    double reach_share = 0.5; ///< reach of a site over its harmonic mean distance
+    int rays = 64;            ///< a site, shared out among the replicates
+    std::size_t most_sites = 4000;
+    std::uint64_t seed = 1;
+    int threads = 0;
+};
+
+/// Ambient irradiance everywhere, coarsely: all bounces but the first are read from it. Sites spread over the
+/// surfaces that light reaches; the ambient irradiance of each is a sum over its rays of what they met and of the
+/// ambient irradiance there, interpolated between sites. That is a linear system, solved as a whole: no bounce is cut
+/// off. Each replicate has its own rays and its own solution. Error: biased by interpolation, once per bounce beyond
+/// the first; rows of a closed scene sum exactly to the
+///        reflectance, so that a uniform enclosure is exact at any reflectance below 1
+/// Source  Galerkin's method with the interpolation weights as test functions (Zatz 1993); Ward 1994, Section 3.2,
+/// whose cache of each further bounce is coarser: here one level for all of them
+class DeepField {
+public:
+    explicit DeepField(const Point& centre = {}) : grid_(centre) {}
+
+    /// Adds a site for each candidate that no earlier one covers, in order.
+    /// @param size_m  of the scene: the reach where nothing is near
+    void place(const std::vector<Receiver>& candidates, const HemisphereRays& rays, double size_m,
+               const DeepSettings& settings);
+    /// Traces the rays of all sites and solves. No site may be added afterwards.
+    void solve_with(const HemisphereRays& rays, const DeepSettings& settings);
+
+    struct Weight {
+        std::uint32_t site;
+        double weight;
+    };
+    static constexpr std::size_t most_weights = 12;
+    /// The sites that answer for a place, their weights summing to 1.
+    /// @return their number; 0 where none is near
+    std::size_t weights(const Point& at, const Direction& normal, Weight* found) const noexcept;
+
+    std::size_t size() const noexcept { return sites_.size(); }
+    const std::vector<AmbientSite>& sites() const noexcept { return sites_; }
+    Spectrum ambient(std::uint32_t site, int replicate) const noexcept
+    {
+        return ambient_[static_cast<std::size_t>(replicate)][site];
+    }
+    Spectrum direct(std::uint32_t site) const noexcept { return direct_[site]; }
+    /// What the dependences add up to in a replicate.
+    Spectrum sum(const std::vector<Dependence>& dependences, int replicate) const noexcept;
+    bool solved() const noexcept { return !ambient_[0].empty(); }
+
+private:
+    struct Start {
+        Receiver receiver;
+        double weight; ///< of all starts of the site: 1
+    };
+    bool covers(const Point& at, const Direction& normal) const noexcept;
+    std::vector<Start> starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
+                              std::uint64_t seed) const;
+
+    std::vector<AmbientSite> sites_;
+    std::vector<Receiver> receivers_;
+    SiteGrid grid_;
+    std::array<std::vector<Spectrum>, replicates> ambient_;
+    std::vector<Spectrum> direct_;
+};
+
+/// A number that a place and its side always have, whoever asks first: the key of its random numbers.
+std::uint64_t place_bits(const Receiver& receiver) noexcept;
+
+} // namespace lightwell

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "engine/base/vector.h"
+
+#include <array>
+#include <limits>
+
+namespace lightwell {
+
+/// Directions within a surface, by which a record knows what stands around it.
+inline constexpr int horizon_sectors = 16;
+
+/// Where a value of ambient irradiance is known, and how far it holds.
+struct AmbientSite {
+    Point position;
+    Direction normal;           ///< on the side that receives
+    Direction axis;             ///< in the surface, along reach_m[0]; reach_m[1] lies across
+    double reach_m[2] = {0, 0}; ///< distances at which the value stops being used
+    double harmonic_m = 0;      ///< harmonic mean distance to other surfaces, cosine-weighted
+    double least_horizon_m = infinity;
+    /// How far one may go in each sector before something stands in the way; infinite until told otherwise.
+    std::array<float, horizon_sectors> horizon_m;
+
+    AmbientSite() { horizon_m.fill(std::numeric_limits<float>::infinity()); }
+};
+
+/// How far a place is from a site in terms of the site's reach: below 1 its value may be used.
+/// Distance in the surface over the reach and turn of the normal add up as squares. A place behind or before the
+/// site's plane, or beyond something that stands on the surface between the two, is infinitely far: light must not
+/// leak under doors or from one shelf to the next.
+/// Source  Ward, Rubinstein, Clear 1988 (split-sphere error), with the ellipse of Schwarzhaupt et al. 2012 in
+///         place of the circle
+double site_distance(const AmbientSite& site, const Point& at, const Direction& normal) noexcept;
+
+/// Notes what a ray from the site met: what it met below 45 degrees may stand between the site and a place.
+void add_horizon(AmbientSite& site, const Direction& direction, double distance_m) noexcept;
+
+} // namespace lightwell

@@ -1,0 +1,71 @@
+#include "engine/simulate/ambient_build.h"
+
+#include "engine/base/threads.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace lightwell {
+namespace {
+
+constexpr std::uint64_t walk_salt = 0x77616c6b;
+/// Diffuse scatterings along a path that looks for sites: the third bounce reaches about every corner of a room.
+constexpr int walk_scatterings = 3;
+
+int power_of_two(double x, int least, int most)
+{
+    const int rounded = 1 << std::clamp(static_cast<int>(std::lround(std::log2(std::max(x, 1.0)))), 0, 20);
+    return std::clamp(rounded, least, most);
+}
+
+} // namespace
+
+AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std::uint64_t seed, int threads)
+{
+    AmbientEffort effort;
+    // At 5 %: 64 rays a site, 512 a record, records 0.1 of the harmonic mean distance apart.
+    constexpr double usual = 0.05;
+    effort.deep.rays = power_of_two(64 * usual / accuracy, 64, 1024);
+    effort.deep.reach_share = std::clamp(0.6 * std::pow(accuracy / usual, 0.25), 0.25, 0.6);
+    effort.deep.seed = effort.cache.seed = seed;
+    effort.deep.threads = effort.cache.threads = threads;
+    effort.deep_paths = static_cast<std::size_t>(power_of_two(1024 * usual / accuracy, 512, 8192));
+    effort.cache.accuracy = std::clamp(2 * accuracy, 0.01, 0.3);
+    effort.cache.rays = power_of_two(512 * usual / accuracy, 128, 8192);
+    effort.cache.gradients = techniques.gradients;
+    effort.cache.hessian = techniques.hessian;
+    return effort;
+}
+
+AmbientBuild::AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques)
+    : parts_(parts), effort_(effort), deep_(parts.box.centre()), cache_(deep_, parts.box.centre()),
+      tracer_(parts.scene, parts.rays, parts.sources,
+              {techniques.cache ? &cache_ : nullptr, techniques.deep_field ? &deep_ : nullptr})
+{
+}
+
+void AmbientBuild::build_deep(std::size_t count, const Start& start)
+{
+    const std::size_t paths = effort_.deep_paths;
+    std::vector<std::vector<Receiver>> found(paths);
+    parallel_for(paths, effort_.deep.threads, [&](std::size_t i) {
+        // Spread evenly over the items, whatever their number.
+        PathRandom random(mix_bits(effort_.deep.seed, walk_salt), 0, static_cast<std::uint32_t>(i));
+        const double where = random.one();
+        Ray ray;
+        if (start(std::min(count - 1, static_cast<std::size_t>(where * static_cast<double>(count))), random, ray))
+            parts_.tracer.receivers_along(ray, walk_scatterings, random, found[i]);
+    });
+    std::vector<Receiver> candidates;
+    for (const std::vector<Receiver>& path : found)
+        candidates.insert(candidates.end(), path.begin(), path.end());
+    deep_.place(candidates, tracer_, parts_.box.diagonal(), effort_.deep);
+    deep_.solve_with(tracer_, effort_.deep);
+}
+
+void AmbientBuild::grow(const std::vector<AmbientCandidate>& candidates)
+{
+    cache_.grow(candidates, tracer_, parts_.box.diagonal(), effort_.cache);
+}
+
+} // namespace lightwell

@@ -1,0 +1,145 @@
+#include "engine/base/threads.h"
+#include "engine/sampling/statistics.h"
+#include "engine/sampling/warps.h"
+#include "engine/simulate/ambient_build.h"
+#include "engine/simulate/replicates.h"
+
+#include <algorithm>
+
+namespace lightwell {
+namespace {
+
+/// A sensor that lies in a surface is lifted off it by this share of the scene's size.
+constexpr double sensor_lift = 1e-9;
+constexpr std::size_t pilot_sensors = 64;
+constexpr int pilot_paths = 16 * pilot_samples;
+/// From this number on, sensors share records of ambient light.
+constexpr std::size_t many_sensors = 2000;
+/// Sensors checked against plain path tracing, and paths at each.
+constexpr std::size_t checked_sensors = 32;
+constexpr int check_paths = 16 * replicates;
+
+Receiver receiver_of(const Sensor& sensor, double size_m)
+{
+    const double error = sensor_lift * size_m + 64 * std::numeric_limits<double>::epsilon() * max_abs(sensor.position);
+    return {sensor.position, normalized(sensor.normal), error};
+}
+
+struct SensorTask {
+    const PathTracer& tracer;
+    const std::vector<Receiver>& receivers;
+    std::uint64_t seed;
+
+    RunningStatistics operator()(std::size_t i, int samples) const
+    {
+        RunningStatistics mean;
+        const auto each = static_cast<std::uint32_t>(samples / replicates);
+        for (int r = 0; r < replicates; ++r) {
+            Spectrum sum;
+            for (std::uint32_t n = 0; n < each; ++n) {
+                PathRandom random(mix_bits(seed, static_cast<std::uint64_t>(r)), i, n);
+                sum += tracer.irradiance(receivers[i], r, random);
+            }
+            mean.add(illuminance_of(sum / each).value);
+        }
+        return mean;
+    }
+};
+
+/// Every step-th sensor, from the first.
+struct Some {
+    std::vector<double> values, errors;
+};
+Some measure_some(const SensorTask& task, int samples, std::size_t step, int threads, Teller& teller)
+{
+    const std::size_t count = (task.receivers.size() + step - 1) / step;
+    Some some{std::vector<double>(count), std::vector<double>(count)};
+    parallel_for(count, threads, [&](std::size_t k) {
+        teller.check();
+        const RunningStatistics mean = task(k * step, samples);
+        some.values[k] = mean.mean();
+        some.errors[k] = mean.standard_error();
+        teller.done_one();
+    });
+    return some;
+}
+
+std::size_t step_for(std::size_t sensors, std::size_t wanted)
+{
+    return std::max<std::size_t>(1, sensors / wanted);
+}
+
+void build(AmbientBuild& ambient, const std::vector<Receiver>& receivers, bool cached, double footprint_m)
+{
+    // Paths start at a sensor, upwards with the cosine, as its light arrives.
+    ambient.build_deep(receivers.size(), [&](std::size_t i, PathRandom& random, Ray& ray) {
+        const Direction local = cosine_hemisphere(random.pair());
+        const Direction direction = frame_about(receivers[i].normal).to_world(local);
+        ray = {receivers[i].position + receivers[i].normal * receivers[i].error_m, direction, infinity};
+        return true;
+    });
+    if (!cached)
+        return;
+    for (std::size_t step = 64;; step /= 4) {
+        std::vector<AmbientCandidate> candidates;
+        for (std::size_t i = step / 2; i < receivers.size(); i += step)
+            candidates.push_back({receivers[i], footprint_m});
+        ambient.grow(candidates);
+        if (step == 1)
+            return;
+    }
+}
+
+} // namespace
+
+GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& settings, const Progress& progress) const
+{
+    const auto start = std::chrono::steady_clock::now();
+    check_accuracy(settings.accuracy, "grid " + grid.name);
+    std::vector<Receiver> receivers;
+    for (const Sensor& sensor : grid.sensors)
+        receivers.push_back(receiver_of(sensor, parts_->box.diagonal()));
+    GridResult result;
+    if (receivers.empty())
+        return result;
+    const AmbientEffort effort =
+        ambient_effort(settings.accuracy, settings.techniques, settings.seed, settings.threads);
+    Techniques techniques = settings.techniques;
+    techniques.cache = techniques.cache && receivers.size() >= many_sensors;
+    AmbientBuild ambient(*parts_, effort, techniques);
+    const bool plain = settings.unbiased || !settings.techniques.deep_field;
+    if (!plain) {
+        progress.tell("ambient light, grid " + grid.name, 0);
+        build(ambient, receivers, techniques.cache, grid.spacing_m);
+    }
+    const SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed};
+    result.samples = whole_replicates(settings.samples);
+    if (settings.samples <= 0) {
+        Teller teller(progress, "pilot run, grid " + grid.name, pilot_sensors);
+        const Some some =
+            measure_some(task, pilot_paths, step_for(receivers.size(), pilot_sensors), settings.threads, teller);
+        result.samples =
+            samples_for(median_relative(some.values, some.errors), pilot_paths, settings.accuracy, most_samples);
+    }
+    Teller teller(progress, "grid " + grid.name, receivers.size());
+    const Some all = measure_some(task, result.samples, 1, settings.threads, teller);
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        result.values.push_back(Illuminance{all.values[i]});
+        result.standard_errors.push_back(Illuminance{all.errors[i]});
+    }
+    result.median_relative_error = median_relative(all.values, all.errors);
+    if (!plain) {
+        const std::size_t step = step_for(receivers.size(), checked_sensors);
+        Teller check(progress, "check, grid " + grid.name, checked_sensors);
+        const SensorTask plain_task{parts_->tracer, receivers, mix_bits(settings.seed)};
+        const Some checks = measure_some(plain_task, check_paths, step, settings.threads, check);
+        std::vector<Checked> points;
+        for (std::size_t k = 0; k < checks.values.size(); ++k)
+            points.push_back({all.values[k * step], checks.values[k], checks.errors[k]});
+        result.bias = bias_of(points);
+    }
+    result.seconds = seconds_since(start);
+    return result;
+}
+
+} // namespace lightwell

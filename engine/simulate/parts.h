@@ -1,0 +1,69 @@
+#pragma once
+
+#include "engine/base/errors.h"
+#include "engine/simulate/path_tracer.h"
+#include "engine/simulate/simulate.h"
+
+#include <chrono>
+#include <mutex>
+
+/// \file What the drivers for pictures and grids share; nothing outside engine/simulate includes it.
+namespace lightwell {
+
+struct SimulationParts {
+    Scene scene;
+    RayQueries rays;
+    SourceList sources;
+    PathTracer tracer; ///< plain
+    Box box;
+
+    explicit SimulationParts(Scene&& s)
+        : scene(std::move(s)), rays(scene), sources(scene, rays), tracer(scene, rays, sources), box(bounds(scene))
+    {
+    }
+};
+
+/// Tells how far the work has come, from one thread at a time, and stops it when asked.
+class Teller {
+public:
+    Teller(const Progress& progress, std::string stage, std::size_t total)
+        : progress_(progress), stage_(std::move(stage)), total_(total)
+    {
+    }
+    void check() const
+    {
+        if (progress_.stop())
+            throw Cancelled{};
+    }
+    void done_one()
+    {
+        const std::lock_guard lock(mutex_);
+        progress_.tell(stage_, static_cast<double>(++done_) / static_cast<double>(total_));
+    }
+
+private:
+    const Progress& progress_;
+    std::string stage_;
+    std::size_t total_, done_ = 0;
+    std::mutex mutex_;
+};
+
+/// Paths of the pilot runs, and the most that are ever chosen.
+inline constexpr int pilot_samples = 4 * replicates;
+inline constexpr int most_samples = 1 << 20;
+
+double seconds_since(std::chrono::steady_clock::time_point start);
+/// Median of errors / values over the items that are not dark.
+double median_relative(const std::vector<double>& values, const std::vector<double>& errors);
+/// Rounded up to a multiple of the replicates, at least one each.
+int whole_replicates(int samples);
+/// @throws InputError unless between 0 and 1
+void check_accuracy(double accuracy, const std::string& place);
+
+/// One value of a result beside its estimate by plain path tracing.
+struct Checked {
+    double value = 0, plain = 0, plain_error = 0;
+};
+BiasEstimate bias_of(const std::vector<Checked>& points);
+
+} // namespace lightwell

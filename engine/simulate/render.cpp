@@ -1,0 +1,317 @@
+#include "engine/base/threads.h"
+#include "engine/sampling/statistics.h"
+#include "engine/simulate/ambient_build.h"
+#include "engine/simulate/replicates.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace lightwell {
+namespace {
+
+/// The pilot run looks at an even lattice of pixels, as many as tell the median to a few percent; the check against
+/// plain path tracing at fewer, with more paths.
+constexpr int pilot_columns = 24, pilot_rows = 16, check_columns = 8, check_rows = 6;
+constexpr int check_paths = 16 * replicates;
+/// Records of ambient light are looked for at every so many pixels, then between them.
+constexpr int first_stride = 32, last_stride = 2;
+
+struct PixelResult {
+    RunningStatistics channel[3], luminance, illuminance;
+    double depth_sum = 0;
+    Vec3 normal_sum;
+    int met = 0;
+};
+
+struct PixelTask {
+    const Camera& camera;
+    const PathTracer& tracer;
+    int width, height;
+    std::uint64_t seed;
+    double reach_m; ///< between the clipping distances
+
+    PixelResult operator()(int x, int y, int samples) const
+    {
+        PixelResult result;
+        const auto pixel =
+            static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
+        const auto each = static_cast<std::uint32_t>(samples / replicates);
+        for (int r = 0; r < replicates; ++r) {
+            Spectrum radiance, irradiance;
+            for (std::uint32_t i = 0; i < each; ++i)
+                add_path(result, x, y, r, PathRandom(mix_bits(seed, static_cast<std::uint64_t>(r)), pixel, i), radiance,
+                         irradiance);
+            radiance = radiance / each;
+            for (int c = 0; c < 3; ++c)
+                result.channel[c].add(radiance[c]);
+            result.luminance.add(luminance_of(radiance).value);
+            result.illuminance.add(illuminance_of(irradiance / each).value);
+        }
+        return result;
+    }
+
+private:
+    void add_path(PixelResult& result, int x, int y, int replicate, PathRandom random, Spectrum& radiance,
+                  Spectrum& irradiance) const
+    {
+        const UnitSquare jitter = random.pair();
+        ViewRay start;
+        if (!camera.ray((x + jitter.u) / width, 1 - (y + jitter.v) / height, start))
+            return;
+        const PathSample path = tracer.sample({start.origin, start.direction, reach_m}, replicate, random);
+        radiance += path.radiance;
+        if (!path.met_surface)
+            return;
+        irradiance += path.irradiance;
+        result.depth_sum += path.distance_m;
+        result.normal_sum += path.normal;
+        ++result.met;
+    }
+};
+
+const char* const channel_names[] = {
+    "R",       "G",       "B",       "illuminance.Y",      "Z", "N.X", "N.Y", "N.Z", "error.R",
+    "error.G", "error.B", "error.Y", "error.illuminance.Y"};
+
+Picture empty_picture(int width, int height)
+{
+    Picture picture{width, height, {}, {}};
+    for (const std::string& name : tile_channels())
+        picture.add_channel(name);
+    return picture;
+}
+
+void put(Picture& picture, std::size_t at, const PixelResult& result, int samples)
+{
+    const auto set = [&](const char* channel, double value) {
+        picture.channels.find(channel)->second[at] = static_cast<float>(value);
+    };
+    set("R", result.channel[0].mean());
+    set("G", result.channel[1].mean());
+    set("B", result.channel[2].mean());
+    set("error.R", result.channel[0].standard_error());
+    set("error.G", result.channel[1].standard_error());
+    set("error.B", result.channel[2].standard_error());
+    set("error.Y", result.luminance.standard_error());
+    // A picture element that the horizon cuts: the mean over the part that shows a surface.
+    const double part = static_cast<double>(result.met) / samples;
+    const bool met = result.met > 0;
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    set("illuminance.Y", met ? result.illuminance.mean() / part : nothing);
+    set("error.illuminance.Y", met ? result.illuminance.standard_error() / part : nothing);
+    set("Z", met ? result.depth_sum / result.met : infinity);
+    const Vec3 normal = normalized(result.normal_sum);
+    set("N.X", normal.x);
+    set("N.Y", normal.y);
+    set("N.Z", normal.z);
+}
+
+void copy_tile(Picture& picture, const Tile& tile, const Picture& part)
+{
+    for (auto& [name, values] : picture.channels) {
+        const std::vector<float>& from = part.channels.at(name);
+        for (int y = 0; y < tile.height; ++y)
+            std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * tile.width, tile.width,
+                        values.begin() + static_cast<std::ptrdiff_t>(tile.y + y) * picture.width + tile.x);
+    }
+}
+
+std::vector<Tile> tiles_of(int width, int height)
+{
+    std::vector<Tile> tiles;
+    for (int y = 0; y < height; y += tile_size)
+        for (int x = 0; x < width; x += tile_size)
+            tiles.push_back({x, y, std::min(tile_size, width - x), std::min(tile_size, height - y)});
+    return tiles;
+}
+
+/// Luminance at an even lattice of pixels.
+struct Lattice {
+    std::vector<int> x, y;
+    std::vector<double> values, errors;
+};
+Lattice measure_lattice(const PixelTask& task, int columns, int rows, int samples, int threads, Teller& teller)
+{
+    Lattice lattice;
+    const int nx = std::min(columns, task.width), ny = std::min(rows, task.height);
+    for (int row = 0; row < ny; ++row)
+        for (int column = 0; column < nx; ++column) {
+            lattice.x.push_back((2 * column + 1) * task.width / (2 * nx));
+            lattice.y.push_back((2 * row + 1) * task.height / (2 * ny));
+        }
+    lattice.values.resize(lattice.x.size());
+    lattice.errors.resize(lattice.x.size());
+    parallel_for(lattice.x.size(), threads, [&](std::size_t i) {
+        teller.check();
+        const PixelResult result = task(lattice.x[i], lattice.y[i], samples);
+        lattice.values[i] = result.luminance.mean();
+        lattice.errors[i] = result.luminance.standard_error();
+        teller.done_one();
+    });
+    return lattice;
+}
+
+/// Rays through the middle of pixels, and where they meet what receives ambient light.
+struct Sights {
+    const Camera& camera;
+    const PathTracer& tracer;
+    int width, height;
+    double reach_m;
+
+    bool ray(int x, int y, Ray& out) const
+    {
+        ViewRay start;
+        if (!camera.ray((x + 0.5) / width, 1 - (y + 0.5) / height, start))
+            return false;
+        out = {start.origin, start.direction, reach_m};
+        return true;
+    }
+    void candidates(int x, int y, std::vector<AmbientCandidate>& found) const
+    {
+        Ray here, beside;
+        if (!ray(x, y, here) || !ray(x + 1 < width ? x + 1 : x - 1, y, beside))
+            return;
+        std::vector<Receiver> receivers;
+        PathRandom random(
+            0, static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x), 0);
+        tracer.receivers_along(here, 0, random, receivers);
+        const double turn = length(beside.direction - here.direction), step = length(beside.origin - here.origin);
+        for (const Receiver& r : receivers)
+            found.push_back({r, step + turn * length(r.position - here.origin)});
+    }
+};
+
+void build(AmbientBuild& ambient, const Sights& sights, const Techniques& techniques, int threads, Teller& teller)
+{
+    const auto width = static_cast<std::size_t>(sights.width);
+    const std::size_t pixels = width * static_cast<std::size_t>(sights.height);
+    ambient.build_deep(pixels, [&](std::size_t i, PathRandom&, Ray& ray) {
+        return sights.ray(static_cast<int>(i % width), static_cast<int>(i / width), ray);
+    });
+    if (!techniques.cache)
+        return;
+    for (int stride = first_stride; stride >= last_stride; stride /= 2) {
+        const int offset = stride / 2;
+        const int columns = (sights.width - offset + stride - 1) / stride;
+        const int rows = (sights.height - offset + stride - 1) / stride;
+        std::vector<std::vector<AmbientCandidate>> of_row(static_cast<std::size_t>(std::max(rows, 0)));
+        parallel_for(of_row.size(), threads, [&](std::size_t row) {
+            for (int column = 0; column < columns; ++column)
+                sights.candidates(offset + column * stride, offset + static_cast<int>(row) * stride, of_row[row]);
+        });
+        std::vector<AmbientCandidate> candidates;
+        for (const auto& row : of_row)
+            candidates.insert(candidates.end(), row.begin(), row.end());
+        teller.check();
+        ambient.grow(candidates);
+        teller.done_one();
+    }
+}
+
+void check_size(const View& view, const PictureSettings& settings)
+{
+    constexpr int most_pixels_a_side = 1 << 15;
+    for (const int size : {settings.width, settings.height})
+        if (size < 1 || size > most_pixels_a_side)
+            throw InputError{"view " + view.name, fmt::format("picture size is {} x {}, expected 1 to {} a side",
+                                                              settings.width, settings.height, most_pixels_a_side)};
+}
+
+/// All tiles, those kept from an interrupted run included.
+Picture render_tiles(const PixelTask& pixel, int samples, int threads, const TileStore& store, Teller& teller)
+{
+    Picture picture = empty_picture(pixel.width, pixel.height);
+    const std::vector<Tile> tiles = tiles_of(pixel.width, pixel.height);
+    parallel_for(tiles.size(), threads, [&](std::size_t i) {
+        const Tile& tile = tiles[i];
+        std::optional<Picture> part = store.stored ? store.stored(tile) : std::nullopt;
+        if (!part) {
+            part = empty_picture(tile.width, tile.height);
+            for (int y = 0; y < tile.height; ++y) {
+                teller.check();
+                for (int x = 0; x < tile.width; ++x)
+                    put(*part,
+                        static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
+                            static_cast<std::size_t>(x),
+                        pixel(tile.x + x, tile.y + y, samples), samples);
+            }
+            if (store.finished)
+                store.finished(tile, *part);
+        }
+        copy_tile(picture, tile, *part); // tiles do not overlap
+        teller.done_one();
+    });
+    return picture;
+}
+
+double median_relative_error(const Picture& picture)
+{
+    std::vector<double> luminance, error;
+    const auto& c = picture.channels;
+    for (std::size_t i = 0; i < c.at("R").size(); ++i) {
+        luminance.push_back(luminance_of({c.at("R")[i], c.at("G")[i], c.at("B")[i]}).value);
+        error.push_back(c.at("error.Y")[i]);
+    }
+    return median_relative(luminance, error);
+}
+
+BiasEstimate check_bias(const PixelTask& plain, const Picture& picture, int threads, Teller& teller)
+{
+    const Lattice lattice = measure_lattice(plain, check_columns, check_rows, check_paths, threads, teller);
+    std::vector<Checked> points;
+    for (std::size_t i = 0; i < lattice.values.size(); ++i) {
+        const auto at = [&](const char* channel) { return picture.at(channel, lattice.x[i], lattice.y[i]); };
+        points.push_back({luminance_of({at("R"), at("G"), at("B")}).value, lattice.values[i], lattice.errors[i]});
+    }
+    return bias_of(points);
+}
+
+} // namespace
+
+std::vector<std::string> tile_channels()
+{
+    return {std::begin(channel_names), std::end(channel_names)};
+}
+
+PictureResult Simulation::render(const View& view, const PictureSettings& settings, const Progress& progress,
+                                 const TileStore& store) const
+{
+    const auto start = std::chrono::steady_clock::now();
+    check_size(view, settings);
+    check_accuracy(settings.accuracy, "view " + view.name);
+    const Camera camera(view);
+    const double reach_m = view.aft_m > 0 ? view.aft_m - view.fore_m : infinity;
+    const bool plain = settings.unbiased || !settings.techniques.deep_field;
+    AmbientBuild ambient(*parts_,
+                         ambient_effort(settings.accuracy, settings.techniques, settings.seed, settings.threads),
+                         settings.techniques);
+    if (!plain) {
+        Teller teller(progress, "ambient light, view " + view.name, 5);
+        build(ambient, {camera, parts_->tracer, settings.width, settings.height, reach_m}, settings.techniques,
+              settings.threads, teller);
+    }
+    PixelTask pixel{camera, plain ? parts_->tracer : ambient.tracer(), settings.width, settings.height, settings.seed,
+                    reach_m};
+    PictureResult result;
+    result.samples = whole_replicates(settings.samples);
+    if (settings.samples <= 0) {
+        Teller teller(progress, "pilot run", pilot_columns * pilot_rows);
+        const Lattice pilot =
+            measure_lattice(pixel, pilot_columns, pilot_rows, pilot_samples, settings.threads, teller);
+        result.samples =
+            samples_for(median_relative(pilot.values, pilot.errors), pilot_samples, settings.accuracy, most_samples);
+    }
+    Teller teller(progress, "view " + view.name, tiles_of(settings.width, settings.height).size());
+    result.picture = render_tiles(pixel, result.samples, settings.threads, store, teller);
+    result.median_relative_error = median_relative_error(result.picture);
+    if (!plain) {
+        Teller check(progress, "check, view " + view.name, check_columns * check_rows);
+        result.bias =
+            check_bias({camera, parts_->tracer, settings.width, settings.height, mix_bits(settings.seed), reach_m},
+                       result.picture, settings.threads, check);
+    }
+    result.seconds = seconds_since(start);
+    return result;
+}
+
+} // namespace lightwell
