@@ -75,7 +75,9 @@ void PathTracer::meet_distant(Walk& walk) const
 void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& material) const
 {
     const Direction direction = walk.ray.direction;
-    const Spectrum radiance = emitted_towards(material, -dot(hit.normal, direction), -direction);
+    const double distance_m = walk.no_shadow_rays ? hit.t : length(hit.position - walk.shares.from);
+    const Spectrum radiance =
+        emitted_towards(material, -dot(hit.normal, direction), -direction) * beam_share(material, distance_m);
     if (radiance.is_black())
         return;
     const int lamp = sources_.lamp_at(hit);
