@@ -24,4 +24,13 @@ Spectrum emitted_towards(const Material& material, double cos_to_viewer, Directi
     return emitted_radiance(material);
 }
 
+double beam_share(const Material& material, double distance_m) noexcept
+{
+    const auto* spot = std::get_if<Spotlight>(&material);
+    if (spot == nullptr || !(distance_m > 0))
+        return 1;
+    const double share = distance_m / (distance_m + length(spot->aim));
+    return share * share;
+}
+
 } // namespace lightwell

@@ -12,4 +12,9 @@ namespace lightwell {
 /// Source  Radiance reference manual, `light`, `illum`, `glow`, `spotlight`
 Spectrum emitted_towards(const Material& material, double cos_to_viewer, Direction world_to_viewer) noexcept;
 
+/// Share of emitted_towards() that counts over a distance: the light of a spotlight spreads from its focal point behind
+/// the lamp, so that irradiance falls as 1 / (distance + focal length)^2. 1 for all other materials.
+/// Source  Radiance reference manual, `spotlight`: the length of the aim is the focal length
+double beam_share(const Material& material, double distance_m) noexcept;
+
 } // namespace lightwell

@@ -18,7 +18,8 @@ constexpr double most_stretch = 3;
 constexpr double least_footprints = 2.5;
 /// Predicted change within the reach, relative.
 constexpr double most_change = 1;
-constexpr std::uint64_t record_salt = 0x7265636f;
+/// Keep random numbers of rays and of shadow rays apart.
+constexpr std::uint64_t record_salt = 0x7265636f, direct_salt = 0x64697265;
 
 /// Rows and columns for about `cells` cells, powers of two, so that a stratified run has one ray in each.
 void shape(int cells, int& rows, int& columns)
@@ -64,13 +65,24 @@ void set_reach(AmbientRecord& record, const Hemisphere& mean, double footprint_m
         reach = std::max(reach, least_footprints * footprint_m);
 }
 
+double lamp_share_at(const SurfacePlace& place, const HemisphereRays& rays, std::uint64_t seed)
+{
+    constexpr std::uint32_t tests = 4;
+    double share = 0;
+    for (std::uint32_t n = 0; n < tests; ++n) {
+        PathRandom random(mix_bits(seed, direct_salt), place_bits(place), n);
+        share += rays.direct(place, false, random).lamp_share / tests;
+    }
+    return share;
+}
+
 } // namespace
 
-bool AmbientCache::covers(const Receiver& receiver) const noexcept
+bool AmbientCache::covers(const SurfacePlace& place) const noexcept
 {
     bool covered = false;
-    grid_.near(receiver.position, [&](std::uint32_t i) {
-        covered = covered || site_distance(sites_[i], receiver.position, receiver.normal) < covered_share;
+    grid_.near(place.position, [&](std::uint32_t i) {
+        covered = covered || site_distance(sites_[i], place.position, place.normal) < covered_share;
     });
     return covered;
 }
@@ -78,11 +90,11 @@ bool AmbientCache::covers(const Receiver& receiver) const noexcept
 AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, const HemisphereRays& rays, double size_m,
                                   const CacheSettings& settings) const
 {
-    const Receiver& receiver = candidate.receiver;
+    const SurfacePlace& place = candidate.place;
     AmbientRecord record;
-    record.site.position = receiver.position;
-    record.site.normal = receiver.normal;
-    const Frame frame = frame_about(receiver.normal);
+    record.site.position = place.position;
+    record.site.normal = place.normal;
+    const Frame frame = frame_about(place.normal);
     record.site.axis = frame.x;
     int rows = 0, columns = 0;
     shape(std::max(8, settings.rays / replicates), rows, columns);
@@ -90,24 +102,29 @@ AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, const Hemis
     Hemisphere mean(frame, rows, columns);
     std::array<double, replicates> photopic_of{};
     std::vector<Dependence> dependences;
+    const double other_share = 1 - std::min(1.0, lamp_share_at(place, rays, settings.seed));
     for (int r = 0; r < replicates; ++r) {
         Spectrum sum;
+        int others = 0;
         for (std::uint32_t n = 0; n < static_cast<std::uint32_t>(each); ++n) {
             PathRandom random(mix_bits(mix_bits(settings.seed, record_salt), static_cast<std::uint64_t>(r)),
-                              place_bits(receiver), n);
+                              place_bits(place), n);
             const UnitSquare u = random.pair();
             const Direction direction = hemisphere_direction(frame, u);
             dependences.clear();
-            const Arrival arrival = rays.arrive(receiver, direction, random, dependences);
+            const Arrival arrival = rays.arrive(place, direction, random, dependences);
             const Spectrum later = deep_.sum(dependences, r);
             sum += arrival.irradiance + later;
+            others += arrival.met_lamp ? 0 : 1;
             const auto cell = static_cast<std::size_t>(cell_of(u, mean));
             mean.radiance[cell] += (arrival.radiance + later / pi) / replicates;
             mean.closeness_per_m[cell] += 1 / (arrival.distance_m * replicates);
             add_horizon(record.site, direction, arrival.distance_m);
         }
-        record.irradiance += sum / (each * replicates);
-        photopic_of[static_cast<std::size_t>(r)] = photopic(sum / each);
+        // How much of the hemisphere shows lamps is known better from shadow rays than from these.
+        sum = others > 0 ? sum * (other_share / others) : Spectrum{};
+        record.irradiance += sum / replicates;
+        photopic_of[static_cast<std::size_t>(r)] = photopic(sum);
     }
     for (std::size_t r = 0; r < replicates; ++r)
         record.deviation[r] = static_cast<float>(photopic_of[r] - photopic(record.irradiance));
@@ -153,8 +170,7 @@ std::size_t AmbientCache::grow(const std::vector<AmbientCandidate>& candidates, 
                                double size_m, const CacheSettings& settings)
 {
     std::vector<char> wanted(candidates.size());
-    parallel_for(candidates.size(), settings.threads,
-                 [&](std::size_t i) { wanted[i] = !covers(candidates[i].receiver); });
+    parallel_for(candidates.size(), settings.threads, [&](std::size_t i) { wanted[i] = !covers(candidates[i].place); });
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < candidates.size() && records_.size() + chosen.size() < settings.most_records; ++i)
         if (wanted[i])

@@ -27,7 +27,7 @@ struct CacheSettings {
 
 /// A place where the cache will be asked.
 struct AmbientCandidate {
-    Receiver receiver;
+    SurfacePlace place;
     double footprint_m = 0; ///< between neighbouring candidates: no record needs a smaller reach
 };
 
@@ -58,7 +58,7 @@ public:
     const std::vector<AmbientRecord>& records() const noexcept { return records_; }
 
 private:
-    bool covers(const Receiver& receiver) const noexcept;
+    bool covers(const SurfacePlace& place) const noexcept;
     AmbientRecord trace(const AmbientCandidate& candidate, const HemisphereRays& rays, double size_m,
                         const CacheSettings& settings) const;
     void clamp_to_neighbours(AmbientRecord& record);

@@ -23,18 +23,18 @@ constexpr std::size_t first_batch = 64, largest_batch = 1024;
 constexpr std::uint64_t survey_salt = 0x73757276, ray_salt = 0x72617973, direct_salt = 0x64697265,
                         start_salt = 0x73746172;
 
-AmbientSite surveyed(const Receiver& receiver, const HemisphereRays& rays, double size_m, const DeepSettings& settings)
+AmbientSite surveyed(const SurfacePlace& place, const HemisphereRays& rays, double size_m, const DeepSettings& settings)
 {
     AmbientSite site;
-    site.position = receiver.position;
-    site.normal = receiver.normal;
-    const Frame frame = frame_about(receiver.normal);
+    site.position = place.position;
+    site.normal = place.normal;
+    const Frame frame = frame_about(place.normal);
     site.axis = frame.x;
     double closeness = 0;
     for (std::uint32_t i = 0; i < survey_rays; ++i) {
-        PathRandom random(mix_bits(settings.seed, survey_salt), place_bits(receiver), i);
+        PathRandom random(mix_bits(settings.seed, survey_salt), place_bits(place), i);
         const Direction direction = hemisphere_direction(frame, random.pair());
-        const double distance = rays.distance_m(receiver, direction);
+        const double distance = rays.distance_m(place, direction);
         closeness += 1 / distance;
         add_horizon(site, direction, distance);
     }
@@ -80,11 +80,11 @@ void make_linear(const Direction& normal, const Vec3* ways, std::size_t count, D
 
 } // namespace
 
-std::uint64_t place_bits(const Receiver& receiver) noexcept
+std::uint64_t place_bits(const SurfacePlace& place) noexcept
 {
     const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v + 0.0); };
     const auto three = [&](const Vec3& v) { return mix_bits(mix_bits(bits(v.x), bits(v.y)), bits(v.z)); };
-    return mix_bits(three(receiver.position), three(receiver.normal));
+    return mix_bits(three(place.position), three(place.normal));
 }
 
 bool DeepField::covers(const Point& at, const Direction& normal) const noexcept
@@ -94,7 +94,7 @@ bool DeepField::covers(const Point& at, const Direction& normal) const noexcept
     return covered;
 }
 
-void DeepField::place(const std::vector<Receiver>& candidates, const HemisphereRays& rays, double size_m,
+void DeepField::place(const std::vector<SurfacePlace>& candidates, const HemisphereRays& rays, double size_m,
                       const DeepSettings& settings)
 {
     std::size_t batch = first_batch;
@@ -104,7 +104,7 @@ void DeepField::place(const std::vector<Receiver>& candidates, const HemisphereR
         const std::size_t count = std::min(batch, candidates.size() - first);
         std::vector<AmbientSite> surveys(count);
         parallel_for(count, settings.threads, [&](std::size_t i) {
-            const Receiver& r = candidates[first + i];
+            const SurfacePlace& r = candidates[first + i];
             if (!covers(r.position, r.normal))
                 surveys[i] = surveyed(r, rays, size_m, settings);
         });
@@ -118,7 +118,7 @@ void DeepField::place(const std::vector<Receiver>& candidates, const HemisphereR
             if (!usable || covered)
                 continue;
             sites_.push_back(site);
-            receivers_.push_back(candidates[first + i]);
+            places_.push_back(candidates[first + i]);
         }
         grid_.add(sites_, before);
     }
@@ -148,11 +148,11 @@ std::vector<DeepField::Start> DeepField::starts(std::size_t site, const Hemisphe
     std::vector<Start> found;
     double total = 0;
     for (std::uint32_t n = 0; n < count; ++n) {
-        PathRandom random(mix_bits(seed, start_salt), place_bits(receivers_[site]), n);
+        PathRandom random(mix_bits(seed, start_salt), place_bits(places_[site]), n);
         const DiscPoint disc = uniform_disc(random.pair());
         const Vec3 offset = (frame.x * disc.x + frame.y * disc.y) * s.reach_m[0];
-        Receiver there;
-        if (!rays.beside(receivers_[site], offset, lift_share * s.reach_m[0], there))
+        SurfacePlace there;
+        if (!rays.beside(places_[site], offset, lift_share * s.reach_m[0], there))
             continue;
         Weight around[most_weights];
         const std::size_t sites = weights(there.position, there.normal, around);
@@ -165,8 +165,63 @@ std::vector<DeepField::Start> DeepField::starts(std::size_t site, const Hemisphe
     for (Start& start : found)
         start.weight /= total;
     if (found.empty())
-        found.push_back({receivers_[site], 1});
+        found.push_back({places_[site], 1});
     return found;
+}
+
+void DeepField::trace_row(std::size_t site, const std::vector<Start>& from, const HemisphereRays& rays,
+                          double other_share, const RowRays& which, FixedPoint& system) const
+{
+    std::vector<Dependence>& row = system.rows[site];
+    std::vector<Dependence> arrived;
+    Spectrum known;
+    double other = 0;
+    for (std::uint32_t n = 0; n < which.count; ++n) {
+        // Each start gets an equal share of the rays, to one.
+        const std::size_t at = n % from.size();
+        const double weight = from[at].weight / static_cast<double>((which.count - at + from.size() - 1) / from.size());
+        PathRandom random(mix_bits(which.seed, which.replicate), place_bits(places_[site]), n);
+        const Direction direction = hemisphere_direction(frame_about(from[at].place.normal), random.pair());
+        arrived.clear();
+        const Arrival arrival = rays.arrive(from[at].place, direction, random, arrived);
+        known += arrival.irradiance * weight;
+        other += arrival.met_lamp ? 0 : weight;
+        for (const Dependence& d : arrived)
+            row.push_back({d.unknown, d.weight * weight});
+    }
+    // How much of the hemisphere shows lamps is known better from the shadow rays than from these.
+    const double scale = other > 0 ? other_share / other : 1;
+    system.known[site] = known * scale;
+    for (Dependence& d : row)
+        d.weight = d.weight * scale;
+    merge_dependences(row);
+}
+
+void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const HemisphereRays& rays,
+                            const DeepSettings& settings, std::vector<double>& other_share)
+{
+    const std::size_t count = sites_.size();
+    direct_.resize(count);
+    std::vector<double> unevenness(count);
+    parallel_for(count, settings.threads, [&](std::size_t i) {
+        double squares = 0;
+        for (std::uint32_t k = 0; k < from[i].size(); ++k) {
+            PathRandom random(mix_bits(settings.seed, direct_salt), place_bits(places_[i]), k);
+            const DirectIrradiance direct = rays.direct(from[i][k].place, false, random);
+            direct_[i] += direct.irradiance * from[i][k].weight;
+            squares += photopic(direct.irradiance) * photopic(direct.irradiance) * from[i][k].weight;
+            other_share[i] -= std::min(1.0, direct.lamp_share) * from[i][k].weight;
+        }
+        const double mean = photopic(direct_[i]);
+        unevenness[i] = std::sqrt(std::max(0.0, squares - mean * mean));
+    });
+    double mean = 0;
+    for (const Spectrum& direct : direct_)
+        mean += photopic(direct) / static_cast<double>(count);
+    constexpr double least_tested = 1.0 / 16, tests_per_unevenness = 2;
+    for (const double u : unevenness)
+        tested_share_.push_back(mean > 0 ? std::clamp(tests_per_unevenness * u / mean, least_tested, 1.0)
+                                         : least_tested);
 }
 
 void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& settings)
@@ -177,29 +232,15 @@ void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& setti
         system.known.resize(count);
         system.rows.resize(count);
     }
-    direct_.resize(count);
     const auto each = static_cast<std::size_t>(std::max(1, settings.rays / replicates));
+    std::vector<std::vector<Start>> from(count);
+    std::vector<double> other_share(count, 1.0);
+    parallel_for(count, settings.threads, [&](std::size_t i) { from[i] = starts(i, rays, each, settings.seed); });
+    find_direct(from, rays, settings, other_share);
+    // The rays use the direct light of all sites.
     parallel_for(count, settings.threads, [&](std::size_t i) {
-        PathRandom first(mix_bits(settings.seed, direct_salt), place_bits(receivers_[i]), 0);
-        direct_[i] = rays.direct(receivers_[i], first);
-        const std::vector<Start> from = starts(i, rays, each, settings.seed);
-        std::vector<Dependence> arrived;
-        for (std::size_t r = 0; r < replicates; ++r) {
-            std::vector<Dependence>& row = systems[r].rows[i];
-            for (std::uint32_t n = 0; n < each; ++n) {
-                // Each start gets an equal share of the rays, to one.
-                const Start& start = from[n % from.size()];
-                const std::size_t sharing = (each - n % from.size() + from.size() - 1) / from.size();
-                const double weight = start.weight / static_cast<double>(sharing);
-                PathRandom random(mix_bits(mix_bits(settings.seed, ray_salt), r), place_bits(receivers_[i]), n);
-                const Direction direction = hemisphere_direction(frame_about(start.receiver.normal), random.pair());
-                arrived.clear();
-                systems[r].known[i] += rays.arrive(start.receiver, direction, random, arrived).irradiance * weight;
-                for (const Dependence& d : arrived)
-                    row.push_back({d.unknown, d.weight * weight});
-            }
-            merge_dependences(row);
-        }
+        for (std::size_t r = 0; r < replicates; ++r)
+            trace_row(i, from[i], rays, other_share[i], {mix_bits(settings.seed, ray_salt), r, each}, systems[r]);
     });
     parallel_for(replicates, settings.threads, [&](std::size_t r) { ambient_[r] = solve(systems[r]); });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/ambient/fixed_point.h"
 #include "engine/ambient/site_grid.h"
 #include "engine/base/spectrum.h"
 #include "engine/sampling/replicates.h"
@@ -32,7 +33,7 @@ public:
 
     /// Adds a site for each candidate that no earlier one covers, in order.
     /// @param size_m  of the scene: the reach where nothing is near
-    void place(const std::vector<Receiver>& candidates, const HemisphereRays& rays, double size_m,
+    void place(const std::vector<SurfacePlace>& candidates, const HemisphereRays& rays, double size_m,
                const DeepSettings& settings);
     /// Traces the rays of all sites and solves. No site may be added afterwards.
     void solve_with(const HemisphereRays& rays, const DeepSettings& settings);
@@ -53,27 +54,39 @@ public:
         return ambient_[static_cast<std::size_t>(replicate)][site];
     }
     Spectrum direct(std::uint32_t site) const noexcept { return direct_[site]; }
+    /// How often the direct light near a site should be tested, [least, 1]: often where it is bright and uneven.
+    double tested_share(std::uint32_t site) const noexcept { return tested_share_[site]; }
     /// What the dependences add up to in a replicate.
     Spectrum sum(const std::vector<Dependence>& dependences, int replicate) const noexcept;
     bool solved() const noexcept { return !ambient_[0].empty(); }
 
 private:
     struct Start {
-        Receiver receiver;
+        SurfacePlace place;
         double weight; ///< of all starts of the site: 1
     };
+    struct RowRays {
+        std::uint64_t seed;
+        std::size_t replicate, count;
+    };
+    /// @param other_share  of the hemisphere that shows no lamp
+    void trace_row(std::size_t site, const std::vector<Start>& from, const HemisphereRays& rays, double other_share,
+                   const RowRays& which, FixedPoint& system) const;
+    void find_direct(const std::vector<std::vector<Start>>& from, const HemisphereRays& rays,
+                     const DeepSettings& settings, std::vector<double>& other_share);
     bool covers(const Point& at, const Direction& normal) const noexcept;
     std::vector<Start> starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
                               std::uint64_t seed) const;
 
     std::vector<AmbientSite> sites_;
-    std::vector<Receiver> receivers_;
+    std::vector<SurfacePlace> places_;
     SiteGrid grid_;
     std::array<std::vector<Spectrum>, replicates> ambient_;
     std::vector<Spectrum> direct_;
+    std::vector<double> tested_share_;
 };
 
 /// A number that a place and its side always have, whoever asks first: the key of its random numbers.
-std::uint64_t place_bits(const Receiver& receiver) noexcept;
+std::uint64_t place_bits(const SurfacePlace& place) noexcept;
 
 } // namespace lightwell

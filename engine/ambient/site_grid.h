@@ -49,8 +49,8 @@ private:
 
     Point centre_;
     std::vector<CellSize> sizes_; ///< in use, smallest first
-    std::vector<Entry> entries_; ///< sorted by key, then site
-    std::vector<Slot> slots_;    ///< open addressing, a power of two
+    std::vector<Entry> entries_;  ///< sorted by key, then site
+    std::vector<Slot> slots_;     ///< open addressing, a power of two
 };
 
 } // namespace lightwell

@@ -1,6 +1,7 @@
 #include "engine/direct/direct_light.h"
 
-#include <algorithm>
+#include "engine/direct/tested_sources.h"
+#include "engine/sources/weighted_choice.h"
 
 namespace lightwell {
 namespace {
@@ -10,15 +11,19 @@ constexpr double before_lamp = 1 - 1e-9;
 /// A way of finding a source that is this much less likely than the other adds only noise.
 constexpr double hopeless = 1e-3;
 
-Ray shadow_ray(const Hit& from, const SourceSample& sample)
+/// Up to so many lamps the potentials of all are summed: they say more than the bounds of a tree, and cost less than a
+/// shadow ray.
+constexpr std::size_t most_summed_lamps = 32;
+
+} // namespace
+
+Ray shadow_ray(const Hit& from, const SourceSample& sample) noexcept
 {
     const Point start = from.leave(sample.to_light);
     if (std::isinf(sample.distance_m))
         return {start, sample.to_light, infinity};
     return {start, from.position + sample.to_light * sample.distance_m - start, before_lamp};
 }
-
-} // namespace
 
 double shadow_ray_weight(double shadow_density, double scattered_density) noexcept
 {
@@ -48,6 +53,7 @@ void DirectLight::add(const Task& task, const SourceSample& sample, double densi
     const Spectrum value = vertex.bsdf.value_per_sr(vertex.to_viewer, local);
     if (local.z <= 0 && value.is_black())
         return;
+    ++task.sum.shadow_rays;
     const Spectrum seen = rays_.transmittance(shadow_ray(vertex.hit, sample));
     if (seen.is_black())
         return;
@@ -67,30 +73,46 @@ void DirectLight::add(const Task& task, const SourceSample& sample, double densi
         task.sum.irradiance += light;
 }
 
+bool DirectLight::few_lamps() const noexcept
+{
+    return !settings_.tree || sources_.lamps().size() <= most_summed_lamps;
+}
+
+void DirectLight::lamp(const Task& task, std::size_t at, double probability, UnitSquare u,
+                       const SourceShares& shares) const
+{
+    const LocalSource& lamp = sources_.lamps()[at];
+    const SourceSample sample = lamp.sample(shares.from, u);
+    add(task, sample, sample.density_per_sr * shares.lamp_rays * probability,
+        !std::holds_alternative<Illum>(lamp.material()));
+}
+
 void DirectLight::lamps(const Task& task, PathRandom& random, SourceShares& shares) const
 {
     thread_local std::vector<double> summed;
     const std::vector<LocalSource>& all = sources_.lamps();
-    summed.resize(all.size());
+    const Receiver receiver{shares.from, shares.normal, shares.transmits};
     double total = 0;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        summed[i] = total += all[i].potential(shares.from, shares.normal, shares.transmits);
-    shares.lamp_total = total;
+    if (few_lamps()) {
+        summed.resize(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i)
+            summed[i] = total += all[i].potential(shares.from, shares.normal, shares.transmits);
+        shares.lamp_total = total;
+    }
     const double offset = random.one();
     for (int k = 0; k < shares.lamp_rays; ++k) {
         const UnitSquare u = random.pair();
-        if (!(total > 0))
-            continue;
-        // One random number places all rays evenly along the summed potentials.
-        const double wanted = total * (k + offset) / shares.lamp_rays;
-        const auto at =
-            static_cast<std::size_t>(std::upper_bound(summed.begin(), summed.end() - 1, wanted) - summed.begin());
-        const double part = summed[at] - (at == 0 ? 0 : summed[at - 1]);
-        if (!(part > 0))
-            continue;
-        const SourceSample sample = all[at].sample(shares.from, u);
-        add(task, sample, sample.density_per_sr * shares.lamp_rays * part / total,
-            !std::holds_alternative<Illum>(all[at].material()));
+        // One random number places all rays evenly along the summed potentials, or the leaves of the tree.
+        const double wanted = (k + offset) / shares.lamp_rays;
+        if (!few_lamps()) {
+            const LampTree::Chosen chosen = sources_.lamp_tree().choose(receiver, wanted);
+            if (chosen.lamp >= 0)
+                lamp(task, static_cast<std::size_t>(chosen.lamp), chosen.probability, u, shares);
+        } else if (total > 0) {
+            const WeightedChoice chosen = choose(summed.data(), summed.size(), wanted);
+            if (chosen.share > 0)
+                lamp(task, chosen.index, chosen.share, u, shares);
+        }
     }
 }
 
@@ -128,29 +150,49 @@ Gathered DirectLight::gather(const Vertex& vertex, const GatherWish& wish, PathR
     shares.from = vertex.hit.position;
     shares.normal = vertex.side;
     shares.transmits = vertex.transmits();
-    shares.lamp_rays = shares.sky_rays = wish.rays;
+    shares.lamp_rays = wish.kinds.lamps ? wish.rays : 0;
+    shares.sky_rays = wish.kinds.sky ? wish.rays : 0;
     shares.portal_share = 0;
     shares.lamp_total = 0;
-    if (wish.lamps && !sources_.lamps().empty())
+    shares.tested = false;
+    if (wish.kinds.lamps && !sources_.lamps().empty())
         lamps(task, random, shares);
-    if (wish.suns)
+    if (wish.kinds.suns)
         for (const SunSource& sun : sources_.suns()) {
             const SourceSample sample = sun.sample(random.pair());
             add(task, sample, sample.density_per_sr, true);
         }
-    if (wish.sky && !sources_.sky().empty())
+    if (wish.kinds.sky && !sources_.sky().empty())
         sky(task, random, shares);
     return sum;
+}
+
+Gathered DirectLight::gather_tested(const Vertex& vertex, const SourceKinds& kinds, const TestedGeneration& generation,
+                                    PathRandom& random, SourceShares& shares) const
+{
+    shares.from = vertex.hit.position;
+    shares.normal = vertex.side;
+    shares.transmits = vertex.transmits();
+    shares.glossy_width_rad = vertex.bsdf.lobes().glossy ? vertex.bsdf.lobes().glossy_width_rad : 0;
+    shares.tested = true;
+    shares.lamp_rays = shares.sky_rays = 0;
+    shares.portal_share = 0;
+    return TestedSources({sources_, rays_, settings_, generation, kinds}, vertex, shares, random).gather();
 }
 
 double DirectLight::lamp_density(const SourceShares& shares, int lamp, const Direction& direction,
                                  const Hit& hit) const noexcept
 {
     const LocalSource& source = sources_.lamps()[static_cast<std::size_t>(lamp)];
-    if (!(shares.lamp_total > 0))
-        return 0;
-    return source.density_per_sr(shares.from, direction, hit) * shares.lamp_rays *
-           source.potential(shares.from, shares.normal, shares.transmits) / shares.lamp_total;
+    if (shares.tested)
+        return source.density_per_sr(shares.from, direction, hit) *
+               nominal_rays(source, sources_.lamps().size(), settings_, shares);
+    double probability = 0;
+    if (!few_lamps())
+        probability = sources_.lamp_tree().probability(lamp, {shares.from, shares.normal, shares.transmits});
+    else if (shares.lamp_total > 0)
+        probability = source.potential(shares.from, shares.normal, shares.transmits) / shares.lamp_total;
+    return source.density_per_sr(shares.from, direction, hit) * shares.lamp_rays * probability;
 }
 
 double DirectLight::sky_density(const SourceShares& shares, const Direction& direction) const noexcept

@@ -13,6 +13,15 @@ public:
     }
     UnitSquare pair() noexcept { return sequence_.pair(index_, dimension_++); }
     double one() noexcept { return sequence_.one(index_, dimension_++); }
+    /// Points for one purpose, stratified among themselves and, when their number is the same on every path, over the
+    /// paths of the item.
+    void pairs(int count, UnitSquare* points) noexcept
+    {
+        for (int i = 0; i < count; ++i)
+            points[i] =
+                sequence_.pair(index_ * static_cast<std::uint32_t>(count) + static_cast<std::uint32_t>(i), dimension_);
+        ++dimension_;
+    }
 
 private:
     SampleSequence sequence_;

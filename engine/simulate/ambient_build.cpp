@@ -47,7 +47,7 @@ AmbientBuild::AmbientBuild(const SimulationParts& parts, const AmbientEffort& ef
 void AmbientBuild::build_deep(std::size_t count, const Start& start)
 {
     const std::size_t paths = effort_.deep_paths;
-    std::vector<std::vector<Receiver>> found(paths);
+    std::vector<std::vector<SurfacePlace>> found(paths);
     parallel_for(paths, effort_.deep.threads, [&](std::size_t i) {
         // Spread evenly over the items, whatever their number.
         PathRandom random(mix_bits(effort_.deep.seed, walk_salt), 0, static_cast<std::uint32_t>(i));
@@ -56,8 +56,8 @@ void AmbientBuild::build_deep(std::size_t count, const Start& start)
         if (start(std::min(count - 1, static_cast<std::size_t>(where * static_cast<double>(count))), random, ray))
             parts_.tracer.receivers_along(ray, walk_scatterings, random, found[i]);
     });
-    std::vector<Receiver> candidates;
-    for (const std::vector<Receiver>& path : found)
+    std::vector<SurfacePlace> candidates;
+    for (const std::vector<SurfacePlace>& path : found)
         candidates.insert(candidates.end(), path.begin(), path.end());
     deep_.place(candidates, tracer_, parts_.box.diagonal(), effort_.deep);
     deep_.solve_with(tracer_, effort_.deep);

@@ -19,30 +19,69 @@ constexpr std::size_t many_sensors = 2000;
 constexpr std::size_t checked_sensors = 32;
 constexpr int check_paths = 16 * replicates;
 
-Receiver receiver_of(const Sensor& sensor, double size_m)
+SurfacePlace receiver_of(const Sensor& sensor, double size_m)
 {
     const double error = sensor_lift * size_m + 64 * std::numeric_limits<double>::epsilon() * max_abs(sensor.position);
     return {sensor.position, normalized(sensor.normal), error};
 }
 
+/// Keeps the random numbers of direct light and of rays apart.
+constexpr std::uint64_t direct_salt = 0x64697265;
+/// Rays of ambient light to one test of the lamps: their light is found exactly where nothing is half hidden.
+constexpr std::uint32_t rays_a_test = 16;
+
 struct SensorTask {
     const PathTracer& tracer;
-    const std::vector<Receiver>& receivers;
+    const std::vector<SurfacePlace>& places;
     std::uint64_t seed;
+    const DeepField* deep; ///< null: plain paths, or records of the cache
 
     RunningStatistics operator()(std::size_t i, int samples) const
     {
         RunningStatistics mean;
         const auto each = static_cast<std::uint32_t>(samples / replicates);
         for (int r = 0; r < replicates; ++r) {
-            Spectrum sum;
-            for (std::uint32_t n = 0; n < each; ++n) {
-                PathRandom random(mix_bits(seed, static_cast<std::uint64_t>(r)), i, n);
-                sum += tracer.irradiance(receivers[i], r, random);
-            }
-            mean.add(illuminance_of(sum / each).value);
+            const std::uint64_t key = mix_bits(seed, static_cast<std::uint64_t>(r));
+            mean.add(
+                illuminance_of(deep != nullptr ? by_hemisphere(i, r, key, each) : by_paths(i, r, key, each)).value);
         }
         return mean;
+    }
+
+private:
+    Spectrum by_paths(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
+    {
+        Spectrum sum;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            PathRandom random(key, i, n);
+            sum += tracer.irradiance(places[i], replicate, random);
+        }
+        return sum / count;
+    }
+    Spectrum by_hemisphere(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
+    {
+        const std::uint32_t tests = std::max(1u, count / rays_a_test);
+        Spectrum direct, ambient;
+        double lamp_share = 0;
+        for (std::uint32_t n = 0; n < tests; ++n) {
+            PathRandom random(mix_bits(key, direct_salt), i, n);
+            const DirectIrradiance found = tracer.direct(places[i], true, random);
+            direct += found.irradiance / tests;
+            lamp_share += found.lamp_share / tests;
+        }
+        const Frame frame = frame_about(places[i].normal);
+        std::vector<Dependence> dependences;
+        std::uint32_t others = 0;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            PathRandom random(key, i, n);
+            const Direction direction = hemisphere_direction(frame, random.pair());
+            dependences.clear();
+            const Arrival arrival = tracer.arrive(places[i], direction, random, dependences);
+            ambient += arrival.irradiance + deep->sum(dependences, replicate);
+            others += arrival.met_lamp ? 0 : 1;
+        }
+        // How much of the hemisphere shows lamps is known better from the shadow rays than from these.
+        return direct + (others > 0 ? ambient * ((1 - std::min(1.0, lamp_share)) / others) : Spectrum{});
     }
 };
 
@@ -52,7 +91,7 @@ struct Some {
 };
 Some measure_some(const SensorTask& task, int samples, std::size_t step, int threads, Teller& teller)
 {
-    const std::size_t count = (task.receivers.size() + step - 1) / step;
+    const std::size_t count = (task.places.size() + step - 1) / step;
     Some some{std::vector<double>(count), std::vector<double>(count)};
     parallel_for(count, threads, [&](std::size_t k) {
         teller.check();
@@ -69,7 +108,7 @@ std::size_t step_for(std::size_t sensors, std::size_t wanted)
     return std::max<std::size_t>(1, sensors / wanted);
 }
 
-void build(AmbientBuild& ambient, const std::vector<Receiver>& receivers, bool cached, double footprint_m)
+void build(AmbientBuild& ambient, const std::vector<SurfacePlace>& receivers, bool cached, double footprint_m)
 {
     // Paths start at a sensor, upwards with the cosine, as its light arrives.
     ambient.build_deep(receivers.size(), [&](std::size_t i, PathRandom& random, Ray& ray) {
@@ -96,7 +135,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
 {
     const auto start = std::chrono::steady_clock::now();
     check_accuracy(settings.accuracy, "grid " + grid.name);
-    std::vector<Receiver> receivers;
+    std::vector<SurfacePlace> receivers;
     for (const Sensor& sensor : grid.sensors)
         receivers.push_back(receiver_of(sensor, parts_->box.diagonal()));
     GridResult result;
@@ -112,7 +151,8 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         progress.tell("ambient light, grid " + grid.name, 0);
         build(ambient, receivers, techniques.cache, grid.spacing_m);
     }
-    const SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed};
+    const SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed,
+                          plain || techniques.cache ? nullptr : &ambient.deep()};
     result.samples = whole_replicates(settings.samples);
     if (settings.samples <= 0) {
         Teller teller(progress, "pilot run, grid " + grid.name, pilot_sensors);
@@ -131,7 +171,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     if (!plain) {
         const std::size_t step = step_for(receivers.size(), checked_sensors);
         Teller check(progress, "check, grid " + grid.name, checked_sensors);
-        const SensorTask plain_task{parts_->tracer, receivers, mix_bits(settings.seed)};
+        const SensorTask plain_task{parts_->tracer, receivers, mix_bits(settings.seed), nullptr};
         const Some checks = measure_some(plain_task, check_paths, step, settings.threads, check);
         std::vector<Checked> points;
         for (std::size_t k = 0; k < checks.values.size(); ++k)

@@ -13,9 +13,13 @@ constexpr int first_rays = 4, later_rays = 1;
 constexpr int sure_scatterings = 3;
 /// Even a path that loses nothing ends some day.
 constexpr double most_survival = 0.9999;
-/// Share of the vertices behind a scattering at which lamps are tested in full: elsewhere the deep field's direct light
-/// stands in, and the difference between the two, found here, keeps the sum unbiased.
-constexpr double tested_share = 0.125;
+/// Behind a scattering the noise of one shadow ray a lamp is lost among that of the scattered rays.
+DirectSettings quick_settings()
+{
+    DirectSettings settings;
+    settings.subdivide = false;
+    return settings;
+}
 
 bool is_diffuse(const Lobes& lobes)
 {
@@ -41,6 +45,7 @@ struct PathTracer::Walk {
     SourceShares here;            ///< of the shadow rays at this vertex; they become `shares` when the path bends
     int scatterings = 0;
     bool straight_from_receiver = false; ///< of an arrival, before anything bends it
+    bool met_lamp = false;               ///< of an arrival: straight away
     bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
     int replicate = 0;
     std::vector<Dependence>* dependences = nullptr; ///< of an arrival: what comes from the deep field is not known yet
@@ -71,6 +76,7 @@ struct PathTracer::AmbientHere {
 PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
                        const AmbientLight& ambient)
     : scene_(scene), rays_(rays), sources_(sources), ambient_(ambient), direct_(sources, rays),
+      quick_direct_(sources, rays, quick_settings()),
       white_(Plastic{Spectrum::grey(1), 0, 0})
 {
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
@@ -106,14 +112,18 @@ void PathTracer::meet_distant(Walk& walk) const
 void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& material) const
 {
     const Direction direction = walk.ray.direction;
-    const Spectrum radiance = emitted_towards(material, -dot(hit.normal, direction), -direction);
+    const double distance_m = walk.sources == Walk::Sources::in_full ? hit.t : length(hit.position - walk.shares.from);
+    const Spectrum radiance =
+        emitted_towards(material, -dot(hit.normal, direction), -direction) * beam_share(material, distance_m);
     if (radiance.is_black())
         return;
     const int lamp = sources_.lamp_at(hit);
     double shadow_density = 0;
     if (lamp >= 0 && walk.sources != Walk::Sources::in_full) {
-        if (walk.sources == Walk::Sources::answered || std::holds_alternative<Illum>(material))
+        if (walk.sources == Walk::Sources::answered || std::holds_alternative<Illum>(material)) {
+            walk.met_lamp = walk.straight_from_receiver;
             return; // its light has come by shadow rays alone
+        }
         shadow_density = direct_.lamp_density(walk.shares, lamp, direction, hit);
     }
     walk.add(radiance * walk.weight(shadow_density));
@@ -163,10 +173,8 @@ void PathTracer::add_ambient(Walk& walk, const AmbientHere& here) const
     }
 }
 
-void PathTracer::gather_at(Walk& walk, const Vertex& vertex, const GatherWish& wish, double share,
-                           PathRandom& random) const
+void PathTracer::add_direct(Walk& walk, const Gathered& direct, double share) const
 {
-    const Gathered direct = direct_.gather(vertex, wish, random, walk.here);
     walk.radiance += walk.throughput * direct.radiance * share;
     if (walk.at_first)
         walk.irradiance += direct.irradiance * share;
@@ -177,27 +185,31 @@ void PathTracer::gather_at(Walk& walk, const Vertex& vertex, const GatherWish& w
 void PathTracer::gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here,
                                        PathRandom& random) const
 {
-    GatherWish wish{walk.bent ? later_rays : first_rays, true, true, false, LobeSet::specular};
-    const Lobes& lobes = vertex.bsdf.lobes();
-    const bool field_stands_in =
-        walk.bent && !lobes.glossy && lobes.diffuse_transmittance.is_black() && !sources_.lamps().empty();
-    if (!field_stands_in) {
-        gather_at(walk, vertex, wish, 1, random);
+    if (!walk.bent) {
+        add_direct(walk, direct_.gather_tested(vertex, {true, true, false}, {}, random, walk.here), 1);
         return;
     }
-    if (!sources_.suns().empty()) {
-        wish.lamps = false;
-        gather_at(walk, vertex, wish, 1, random);
+    const Lobes& lobes = vertex.bsdf.lobes();
+    const bool field_stands_in = !lobes.glossy && lobes.diffuse_transmittance.is_black() && !sources_.lamps().empty();
+    if (!field_stands_in || !sources_.suns().empty()) {
+        const GatherWish wish{later_rays, {!field_stands_in, true, false}, LobeSet::specular};
+        add_direct(walk, direct_.gather(vertex, wish, random, walk.here), 1);
     }
+    if (!field_stands_in)
+        return;
+    // The field's direct light stands in; now and then the difference to a test is added, which keeps the sum unbiased.
     Spectrum usual;
+    double tested_share = 0;
     const AmbientHere::Side& side = here.sides[0];
-    for (std::size_t i = 0; i < side.count; ++i)
+    for (std::size_t i = 0; i < side.count; ++i) {
         usual += ambient_.deep->direct(side.weights[i].site) * side.weights[i].weight;
+        tested_share = std::max(tested_share, ambient_.deep->tested_share(side.weights[i].site));
+    }
     usual = usual * side.reflected / pi;
     walk.add(usual);
     if (random.one() < tested_share) {
-        wish = {first_rays, true, false, false, LobeSet::specular};
-        gather_at(walk, vertex, wish, 1 / tested_share, random);
+        const Gathered tested = quick_direct_.gather_tested(vertex, {true, false, false}, {}, random, walk.here);
+        add_direct(walk, tested, 1 / tested_share);
         walk.add(usual * (-1 / tested_share));
     }
 }
@@ -288,7 +300,7 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
         return (lobes.glossy || lobes.delta) && scatter(walk, vertex, LobeSet::specular, random);
     }
     if (is_diffuse(lobes) || lobes.glossy)
-        gather_at(walk, vertex, {walk.at_first ? first_rays : later_rays}, 1, random);
+        add_direct(walk, direct_.gather(vertex, {walk.at_first ? first_rays : later_rays}, random, walk.here), 1);
     return scatter(walk, vertex, LobeSet::all, random);
 }
 
@@ -319,7 +331,7 @@ PathSample PathTracer::sample(const Ray& ray, int replicate, PathRandom& random)
     return result;
 }
 
-Vertex PathTracer::white_vertex(const Receiver& receiver) const
+Vertex PathTracer::white_vertex(const SurfacePlace& receiver) const
 {
     Hit here;
     here.position = receiver.position;
@@ -328,7 +340,7 @@ Vertex PathTracer::white_vertex(const Receiver& receiver) const
     return Vertex(here, -receiver.normal, white_);
 }
 
-Spectrum PathTracer::irradiance(const Receiver& receiver, int replicate, PathRandom& random) const
+Spectrum PathTracer::irradiance(const SurfacePlace& receiver, int replicate, PathRandom& random) const
 {
     const Vertex vertex = white_vertex(receiver);
     Walk walk;
@@ -340,20 +352,20 @@ Spectrum PathTracer::irradiance(const Receiver& receiver, int replicate, PathRan
         gather_beside_ambient(walk, vertex, here, random);
         return walk.irradiance;
     }
-    gather_at(walk, vertex, {first_rays}, 1, random);
+    add_direct(walk, direct_.gather(vertex, {first_rays}, random, walk.here), 1);
     if (scatter(walk, vertex, LobeSet::all, random))
         run(walk, random);
     return walk.irradiance;
 }
 
-Arrival PathTracer::arrive(const Receiver& receiver, const Direction& direction, PathRandom& random,
+Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direction, PathRandom& random,
                            std::vector<Dependence>& dependences) const
 {
     const Vertex vertex = white_vertex(receiver);
     Walk walk;
     Arrival arrival;
     if (!sources_.sky().empty()) {
-        const GatherWish sky{later_rays, false, false, true, LobeSet::all};
+        const GatherWish sky{later_rays, {false, false, true}, LobeSet::all};
         arrival.irradiance = direct_.gather(vertex, sky, random, walk.here).irradiance;
     }
     walk.ray = {vertex.hit.leave(direction), direction, infinity};
@@ -369,39 +381,39 @@ Arrival PathTracer::arrive(const Receiver& receiver, const Direction& direction,
     run(walk, random);
     arrival.irradiance += walk.irradiance;
     arrival.radiance = walk.radiance;
+    arrival.met_lamp = walk.met_lamp;
     if (walk.first)
         arrival.distance_m = length(walk.first->position - receiver.position);
     return arrival;
 }
 
-bool PathTracer::beside(const Receiver& receiver, const Vec3& offset, double lift_m, Receiver& found) const
+bool PathTracer::beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const
 {
     const Point lifted = receiver.position + receiver.normal * lift_m;
     Hit hit;
-    if (rays_.closest({lifted, offset, 1}, hit) ||
-        !rays_.closest({lifted + offset, -receiver.normal, 2 * lift_m}, hit))
+    if (rays_.closest({lifted, offset, 1}, hit) || !rays_.closest({lifted + offset, -receiver.normal, 2 * lift_m}, hit))
         return false;
     const bool front = dot(hit.normal, receiver.normal) > 0;
     found = {hit.position, front ? hit.normal : -hit.normal, hit.error_m};
     return true;
 }
 
-double PathTracer::distance_m(const Receiver& receiver, const Direction& direction) const
+double PathTracer::distance_m(const SurfacePlace& receiver, const Direction& direction) const
 {
     const Vertex vertex = white_vertex(receiver);
     Hit hit;
     return rays_.closest({vertex.hit.leave(direction), direction, infinity}, hit) ? hit.t : infinity;
 }
 
-Spectrum PathTracer::direct(const Receiver& receiver, PathRandom& random) const
+DirectIrradiance PathTracer::direct(const SurfacePlace& receiver, bool with_suns, PathRandom& random) const
 {
     SourceShares shares;
-    const GatherWish lamps{first_rays, true, false, false, LobeSet::specular};
-    return direct_.gather(white_vertex(receiver), lamps, random, shares).irradiance;
+    const Gathered found = direct_.gather_tested(white_vertex(receiver), {true, with_suns, false}, {}, random, shares);
+    return {found.irradiance, found.lamp_share};
 }
 
 void PathTracer::receivers_along(const Ray& ray, int scatterings, PathRandom& random,
-                                 std::vector<Receiver>& found) const
+                                 std::vector<SurfacePlace>& found) const
 {
     Walk walk;
     walk.ray = ray;

@@ -26,18 +26,18 @@ public:
     /// @param replicate  of the ambient light
     PathSample sample(const Ray& ray, int replicate, PathRandom& random) const;
     /// One estimate of the irradiance at a receiver, W/m^2.
-    Spectrum irradiance(const Receiver& receiver, int replicate, PathRandom& random) const;
+    Spectrum irradiance(const SurfacePlace& receiver, int replicate, PathRandom& random) const;
 
-    Arrival arrive(const Receiver& receiver, const Direction& direction, PathRandom& random,
+    Arrival arrive(const SurfacePlace& receiver, const Direction& direction, PathRandom& random,
                    std::vector<Dependence>& dependences) const override;
-    bool beside(const Receiver& receiver, const Vec3& offset, double lift_m, Receiver& found) const override;
-    double distance_m(const Receiver& receiver, const Direction& direction) const override;
-    Spectrum direct(const Receiver& receiver, PathRandom& random) const override;
+    bool beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const override;
+    double distance_m(const SurfacePlace& receiver, const Direction& direction) const override;
+    DirectIrradiance direct(const SurfacePlace& receiver, bool with_suns, PathRandom& random) const override;
 
     /// The places along a path that receive ambient light, on the side that a ray came from and, where light passes
     /// diffusely, on the other: those the eye sees by mirrored and straight rays, then those seen from there.
     /// @param scatterings  diffuse ones; 0: only what the eye sees
-    void receivers_along(const Ray& ray, int scatterings, PathRandom& random, std::vector<Receiver>& found) const;
+    void receivers_along(const Ray& ray, int scatterings, PathRandom& random, std::vector<SurfacePlace>& found) const;
 
 private:
     struct Walk;
@@ -45,7 +45,7 @@ private:
     bool find_ambient(const Walk& walk, const Vertex& vertex, AmbientHere& here) const;
     void add_ambient(Walk& walk, const AmbientHere& here) const;
     void gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here, PathRandom& random) const;
-    void gather_at(Walk& walk, const Vertex& vertex, const GatherWish& wish, double share, PathRandom& random) const;
+    void add_direct(Walk& walk, const Gathered& direct, double share) const;
     bool scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const;
     bool survives(Walk& walk, PathRandom& random) const;
     void meet_distant(Walk& walk) const;
@@ -53,13 +53,14 @@ private:
     bool meet_surface(Walk& walk, PathRandom& random) const;
     void meet_emitter(Walk& walk, const Hit& hit, const Material& material) const;
     void run(Walk& walk, PathRandom& random) const;
-    Vertex white_vertex(const Receiver& receiver) const;
+    Vertex white_vertex(const SurfacePlace& receiver) const;
 
     const Scene& scene_;
     const RayQueries& rays_;
     const SourceList& sources_;
     AmbientLight ambient_;
     DirectLight direct_;
+    DirectLight quick_direct_; ///< behind a scattering
     std::vector<const Material*> materials_;  ///< by modifier
     std::vector<const Material*> alternates_; ///< by modifier: what eyes see of an Illum; null: nothing
     Material white_;

@@ -171,12 +171,12 @@ struct Sights {
         Ray here, beside;
         if (!ray(x, y, here) || !ray(x + 1 < width ? x + 1 : x - 1, y, beside))
             return;
-        std::vector<Receiver> receivers;
+        std::vector<SurfacePlace> receivers;
         PathRandom random(
             0, static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x), 0);
         tracer.receivers_along(here, 0, random, receivers);
         const double turn = length(beside.direction - here.direction), step = length(beside.origin - here.origin);
-        for (const Receiver& r : receivers)
+        for (const SurfacePlace& r : receivers)
             found.push_back({r, step + turn * length(r.position - here.origin)});
     }
 };

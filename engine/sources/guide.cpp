@@ -1,6 +1,7 @@
 #include "engine/sources/guide.h"
 
 #include "engine/base/random.h"
+#include "engine/sources/weighted_choice.h"
 
 #include <algorithm>
 #include <mutex>
@@ -149,11 +150,7 @@ SampledDirection Guide::sample(const Shares& shares, const Point& from, UnitSqua
 {
     if (!(shares.total() > 0))
         return {};
-    const double wanted = u.u * shares.total();
-    const auto at = static_cast<std::size_t>(std::upper_bound(shares.summed, shares.summed + shares.count - 1, wanted) -
-                                             shares.summed);
-    const double part = shares.share(at), before = shares.summed[at] - part;
-    const double left = part > 0 ? std::clamp((wanted - before) / part, 0.0, 0x1.fffffffffffffp-1) : 0;
+    const auto [at, share, left] = choose(shares.summed, shares.count, u.u);
     const SampledDirection d = portals_[shares.entries[at].index].sample(from, {left, u.v});
     return {d.direction, d.density_per_sr > 0 ? density_per_sr(shares, from, d.direction) : 0};
 }

@@ -1,6 +1,8 @@
 #include "engine/sources/local_source.h"
 
 #include "engine/base/frame.h"
+#include "engine/sources/unoccluded.h"
+#include "engine/sources/weighted_choice.h"
 #include "materials/emission.h"
 
 #include <algorithm>
@@ -10,6 +12,10 @@ namespace {
 
 /// More triangles than this are drawn by area: one solid angle for each would cost more than the noise it saves.
 constexpr std::size_t most_spherical_triangles = 8;
+/// Flat meshes of more triangles than this have no closed form: it would take longer than shadow rays.
+constexpr std::size_t most_summed_triangles = 16;
+/// Distance over radius from which on a source counts as a point: its irradiance is then right to 4e-6.
+constexpr double far_away = 600;
 
 struct PointOnSource {
     Point point;
@@ -42,52 +48,38 @@ SphericalRectangle seen_rectangle(const FlatEmitter& e, const Point& from)
     return {from, e.corners[0], e.corners[1] - e.corners[0], e.corners[2] - e.corners[0]};
 }
 
-/// Distance along a direction to the plane of a triangle.
-double plane_distance(const FlatEmitter& e, std::size_t triangle, const Point& from, const Direction& direction)
+/// Distance along a direction to a plane.
+double plane_distance(const Direction& normal, const Vec3& to_corner, const Direction& direction)
 {
-    const Vec3 n = flat_normal(e, triangle);
-    return dot(n, corner(e, triangle, 0) - from) / dot(n, direction);
+    return dot(normal, to_corner) / dot(normal, direction);
 }
 
-struct FlatChoice {
-    std::size_t triangle;
-    double share; ///< of the whole solid angle
-    double u;     ///< what is left of the random number
-};
-
 /// Chooses among triangles by solid angle.
-FlatChoice choose(const FlatEmitter& e, const Point& from, double u)
+WeightedChoice choose_triangle(const FlatEmitter& e, const Point& from, double u)
 {
-    double parts[most_spherical_triangles] = {}, total = 0;
+    double summed[most_spherical_triangles], total = 0;
     const std::size_t count = e.summed_area.size();
     for (std::size_t i = 0; i < count; ++i)
-        total += parts[i] = seen_triangle(e, i, from).solid_angle_sr();
-    double before = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const bool last = i + 1 == count;
-        if (parts[i] > 0 && (u * total < before + parts[i] || last))
-            return {i, parts[i] / total, std::clamp((u * total - before) / parts[i], 0.0, 0x1.fffffffffffffp-1)};
-        before += parts[i];
-    }
-    return {0, 0, u};
+        summed[i] = total += seen_triangle(e, i, from).solid_angle_sr();
+    return choose(summed, count, u);
 }
 
 PointOnSource point_by_area(const FlatEmitter& e, UnitSquare u)
 {
-    const double wanted = u.u * e.summed_area.back();
-    const auto at = static_cast<std::size_t>(std::upper_bound(e.summed_area.begin(), e.summed_area.end() - 1, wanted) -
-                                             e.summed_area.begin());
-    const double before = at == 0 ? 0 : e.summed_area[at - 1];
-    const double left = std::clamp((wanted - before) / (e.summed_area[at] - before), 0.0, 0x1.fffffffffffffp-1);
+    const auto [at, share, left] = choose(e.summed_area.data(), e.summed_area.size(), u.u);
     return {triangle_by_area(corner(e, at, 0), corner(e, at, 1), corner(e, at, 2), {left, u.v}), flat_normal(e, at)};
 }
 
 PointOnSource point_by_area(const RingEmitter& e, UnitSquare u)
 {
     const Ring& ring = e.ring;
+    const Frame frame = frame_about(ring.normal);
+    if (ring.inner_radius == 0) { // keeps neighbours together, which a straight edge of a shadow rewards
+        const DiscPoint p = uniform_disc(u);
+        return {ring.centre + (frame.x * p.x + frame.y * p.y) * ring.outer_radius, ring.normal};
+    }
     const double inner = ring.inner_radius * ring.inner_radius, outer = ring.outer_radius * ring.outer_radius;
     const double r = std::sqrt(inner + u.u * (outer - inner)), angle = 2 * pi * u.v;
-    const Frame frame = frame_about(ring.normal);
     return {ring.centre + frame.x * (r * std::cos(angle)) + frame.y * (r * std::sin(angle)), ring.normal};
 }
 
@@ -114,12 +106,30 @@ double per_solid_angle(double area_m2, double distance_m, double cosine)
     return cosine > 0 ? distance_m * distance_m / (area_m2 * cosine) : 0;
 }
 
+SourceSample sphere_sample(const Sphere& sphere, const Point& from, UnitSquare u)
+{
+    const SampledDirection d = sphere_seen_from(from, sphere.centre, sphere.radius, u);
+    // Nearest point of the ball along the direction; its foot point where rounding lets the ray miss.
+    const Vec3 to_centre = sphere.centre - from;
+    const double along = dot(to_centre, d.direction);
+    const Vec3 foot = d.direction * along - to_centre;
+    const double half = std::sqrt(std::fmax(0, sphere.radius * sphere.radius - dot(foot, foot)));
+    // From inside, where the distance comes out negative, the front faces away.
+    return {d.direction, along - half, along - half > 0 ? d.density_per_sr : 0, {}};
+}
+
 } // namespace
 
 LocalSource::LocalSource(Shape shape, const Material& material)
     : shape_(std::move(shape)), material_(&material), strength_(photopic(emitted_radiance(material)))
 {
-    Box box;
+    Box& box = box_;
+    if ((beam_ = std::get_if<Spotlight>(&material)) != nullptr) {
+        aim_ = normalized(beam_->aim);
+        half_beam_rad_ = 0.5 * beam_->full_angle_deg * radians_per_degree;
+        cos_half_beam_ = std::cos(half_beam_rad_);
+        sin_half_beam_ = std::sin(half_beam_rad_);
+    }
     if (const auto* flat = std::get_if<FlatEmitter>(&shape_)) {
         for (const Point& p : flat->corners)
             box.extend(p);
@@ -152,6 +162,10 @@ LocalSource::LocalSource(Shape shape, const Material& material)
         }
         area_m2_ = pi * (c.radii[0] + c.radii[1]) * std::hypot(length(c.ends[1] - c.ends[0]), c.radii[1] - c.radii[0]);
     }
+    const auto* flat_shape = std::get_if<FlatEmitter>(&shape_);
+    closed_form_ = flat_shape != nullptr
+                       ? flat_ && (flat_shape->rectangle || flat_shape->summed_area.size() <= most_summed_triangles)
+                       : !std::holds_alternative<ConeEmitter>(shape_);
     centre_ = box.centre();
     radius_m_ = 0.5 * box.diagonal();
 }
@@ -160,6 +174,8 @@ double LocalSource::potential(const Point& at, const Direction& normal, bool tra
 {
     const Vec3 to_centre = centre_ - at;
     const double squared = dot(to_centre, to_centre), distance = std::sqrt(squared);
+    if (beam_ != nullptr && !in_beam(to_centre, distance))
+        return 0;
     double leaving = 1;
     if (flat_) {
         const double height = -dot(facing_, to_centre);
@@ -175,7 +191,103 @@ double LocalSource::potential(const Point& at, const Direction& normal, bool tra
     return strength_ * std::fmin(pi, arriving * leaving * area_m2_ / std::fmax(squared, 1e-300));
 }
 
+/// Whether any point of the source may send its beam along -to_centre: the source's own size widens the cone.
+bool LocalSource::in_beam(const Vec3& to_centre, double distance) const noexcept
+{
+    if (!(distance > radius_m_))
+        return true;
+    const double sine = radius_m_ / distance, cosine = std::sqrt(1 - sine * sine);
+    const double sine_sum = sin_half_beam_ * cosine + cos_half_beam_ * sine;
+    constexpr double rounding = 1e-12;
+    return sine_sum <= 0 ||
+           -dot(aim_, to_centre) >= distance * (cos_half_beam_ * cosine - sin_half_beam_ * sine - rounding);
+}
+
+std::optional<double> LocalSource::projected_solid_angle_sr(const Point& at, const Direction& normal) const noexcept
+{
+    if (beam_ != nullptr || !closed_form_)
+        return {};
+    const Vec3 to_centre = centre_ - at;
+    if (flat_ && dot(facing_, to_centre) >= 0)
+        return 0.0;
+    const double distance = length(to_centre);
+    if (distance > far_away * radius_m_ && dot(normal, to_centre) > radius_m_)
+        return middle_solid_angle_sr(at, normal);
+    if (const auto* ball = std::get_if<SphereEmitter>(&shape_))
+        return sphere_irradiance(to_centre, ball->sphere.radius, normal);
+    if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
+        const double sine = std::sqrt(std::fmax(0, 1 - std::pow(dot(normal, facing_), 2)));
+        if (dot(normal, to_centre) < ring->ring.outer_radius * sine)
+            return {};
+        return disc_irradiance(to_centre, facing_, ring->ring.outer_radius, normal) -
+               disc_irradiance(to_centre, facing_, ring->ring.inner_radius, normal);
+    }
+    const auto& flat = std::get<FlatEmitter>(shape_);
+    const Vec3* c = flat.corners.data();
+    if (flat.rectangle) {
+        const Vec3 around[4] = {c[0] - at, c[1] - at, c[1] + c[2] - c[0] - at, c[2] - at};
+        return polygon_irradiance(around, 4, normal);
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < flat.corners.size(); i += 3) {
+        const Vec3 around[3] = {c[i] - at, c[i + 1] - at, c[i + 2] - at};
+        sum += polygon_irradiance(around, 3, normal);
+    }
+    return sum;
+}
+
+double LocalSource::middle_solid_angle_sr(const Point& at, const Direction& normal) const noexcept
+{
+    const Vec3 to_centre = centre_ - at;
+    const double squared = std::fmax(dot(to_centre, to_centre), 1e-300), distance = std::sqrt(squared);
+    const double arriving = std::fmax(0, dot(normal, to_centre) / distance);
+    if (beam_ != nullptr && !(dot(aim_, to_centre) < -distance * cos_half_beam_))
+        return 0;
+    // All but flat shapes are taken for round ones, which show a quarter of their surface to every side.
+    const double shown = flat_ ? std::fmax(0, -dot(facing_, to_centre) / distance) : 0.25;
+    return std::fmin(pi, arriving * shown * area_m2_ / squared) * beam_share(*material_, distance);
+}
+
+double LocalSource::seen_size(const Point& at) const noexcept
+{
+    return 2 * radius_m_ / std::fmax(length(centre_ - at) - radius_m_, radius_m_);
+}
+
+LocalSource::Reach LocalSource::reach() const noexcept
+{
+    // A beam leaves about its aim; a flat shape's half space holds it too, but one cone a lamp is enough.
+    const bool narrow = beam_ != nullptr && (!flat_ || half_beam_rad_ < pi / 2);
+    Box box = box_;
+    box.extend(centre_ - Vec3{1, 1, 1} * (round() ? radius_m_ : 0));
+    box.extend(centre_ + Vec3{1, 1, 1} * (round() ? radius_m_ : 0));
+    return {box, narrow ? aim_ : facing_, narrow ? half_beam_rad_ : flat_ ? pi / 2 : pi, strength_ * area_m2_};
+}
+
+/// How the flat shapes are seen from one point, worked out once for all its samples.
+struct LocalSource::Seen {
+    std::optional<SphericalRectangle> rectangle;
+    Direction normal;
+};
+
 SourceSample LocalSource::sample(const Point& from, UnitSquare u) const noexcept
+{
+    SourceSample s;
+    sample(from, &u, 1, &s);
+    return s;
+}
+
+void LocalSource::sample(const Point& from, const UnitSquare* u, int count, SourceSample* samples) const noexcept
+{
+    Seen seen;
+    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat != nullptr && flat->rectangle) {
+        seen.rectangle.emplace(seen_rectangle(*flat, from));
+        seen.normal = flat_normal(*flat, 0);
+    }
+    for (int i = 0; i < count; ++i)
+        samples[i] = sample_seen(seen, from, u[i]);
+}
+
+SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitSquare u) const noexcept
 {
     SourceSample s;
     double cosine = 1; // at the source; by solid angle only its sign counts
@@ -187,30 +299,27 @@ SourceSample LocalSource::sample(const Point& from, UnitSquare u) const noexcept
         s.density_per_sr = per_solid_angle(area_m2_, s.distance_m, cosine);
     };
     if (const auto* flat = std::get_if<FlatEmitter>(&shape_)) {
-        if (by_solid_angle(*flat)) {
-            const FlatChoice pick = flat->rectangle ? FlatChoice{0, 1, u.u} : choose(*flat, from, u.u);
-            const SampledDirection d = flat->rectangle
-                                           ? seen_rectangle(*flat, from).sample(u)
-                                           : seen_triangle(*flat, pick.triangle, from).sample({pick.u, u.v});
-            s.to_light = d.direction;
-            s.density_per_sr = d.density_per_sr * pick.share;
-            s.distance_m = plane_distance(*flat, pick.triangle, from, d.direction);
-            cosine = -dot(flat_normal(*flat, pick.triangle), d.direction);
+        if (seen.rectangle) {
+            const SampledDirection d = seen.rectangle->sample(u);
+            s = {d.direction,
+                 plane_distance(seen.normal, corner(*flat, 0, 0) - from, d.direction),
+                 d.density_per_sr,
+                 {}};
+            cosine = -dot(seen.normal, d.direction);
+        } else if (by_solid_angle(*flat)) {
+            const WeightedChoice pick = choose_triangle(*flat, from, u.u);
+            const SampledDirection d = seen_triangle(*flat, pick.index, from).sample({pick.left, u.v});
+            const Direction normal = flat_normal(*flat, pick.index);
+            s = {d.direction,
+                 plane_distance(normal, corner(*flat, pick.index, 0) - from, d.direction),
+                 d.density_per_sr * pick.share,
+                 {}};
+            cosine = -dot(normal, d.direction);
         } else {
             by_area(point_by_area(*flat, u));
         }
     } else if (const auto* ball = std::get_if<SphereEmitter>(&shape_)) {
-        const SampledDirection d = sphere_seen_from(from, centre_, ball->sphere.radius, u);
-        s.to_light = d.direction;
-        s.density_per_sr = d.density_per_sr;
-        // Nearest point of the ball along the direction; its foot point where rounding lets the ray miss.
-        const Vec3 to_centre = centre_ - from;
-        const double along = dot(to_centre, d.direction);
-        const Vec3 foot = d.direction * along - to_centre;
-        const double half = std::sqrt(std::fmax(0, ball->sphere.radius * ball->sphere.radius - dot(foot, foot)));
-        s.distance_m = along - half;
-        if (!(s.distance_m > 0))
-            s.density_per_sr = 0; // inside: the front faces away
+        s = sphere_sample(ball->sphere, from, u);
     } else if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
         by_area(point_by_area(*ring, u));
     } else if (const auto* cone = std::get_if<ConeEmitter>(&shape_)) {
@@ -220,7 +329,7 @@ SourceSample LocalSource::sample(const Point& from, UnitSquare u) const noexcept
         s.density_per_sr = 0;
         return s;
     }
-    s.radiance = emitted_towards(*material_, cosine, -s.to_light);
+    s.radiance = emitted_towards(*material_, cosine, -s.to_light) * beam_share(*material_, s.distance_m);
     return s;
 }
 

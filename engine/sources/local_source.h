@@ -1,10 +1,12 @@
 #pragma once
 
 #include "engine/accel/ray_queries.h"
+#include "engine/base/box.h"
 #include "engine/base/spectrum.h"
 #include "engine/sampling/warps.h"
 #include "engine/scene/scene.h"
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -43,20 +45,49 @@ public:
 
     /// Irradiance that the source would give without obstacles, roughly, W/m^2: never 0 where it can give any.
     double potential(const Point& at, const Direction& normal, bool transmits) const noexcept;
+    /// Irradiance that the source gives without obstacles for a radiance of 1, sr; nothing where no closed form is at
+    /// hand (beams, cones, meshes that are not flat, discs that the horizon cuts).
+    /// Error: relative 1e-6 (tests/unit/sources/unoccluded_test.cpp)
+    std::optional<double> projected_solid_angle_sr(const Point& at, const Direction& normal) const noexcept;
+    /// The same from the middle of the source alone: for order and rough sums, whatever the shape; 0 outside a beam.
+    /// Error: relative 1/3 (size / distance)^2
+    double middle_solid_angle_sr(const Point& at, const Direction& normal) const noexcept;
+    /// Largest extent over distance, at most 2.
+    double seen_size(const Point& at) const noexcept;
     SourceSample sample(const Point& from, UnitSquare u) const noexcept;
+    /// As sample(), for `count` points at once: what they share is worked out once.
+    void sample(const Point& from, const UnitSquare* u, int count, SourceSample* samples) const noexcept;
     /// Density with which sample() finds the direction in which `hit` on this source was found.
     double density_per_sr(const Point& from, const Direction& direction, const Hit& hit) const noexcept;
     const Material& material() const noexcept { return *material_; }
+    const Point& centre() const noexcept { return centre_; }
+    /// What a tree over lamps needs to know: where it is and where it sends light.
+    struct Reach {
+        Box box;
+        Direction axis;           ///< about which the light leaves
+        double half_angle_rad;    ///< beyond which none does; pi: to all sides
+        double strength_W_per_sr; ///< photopic radiance times area
+    };
+    Reach reach() const noexcept;
 
 private:
+    struct Seen;
+    bool round() const noexcept { return !std::holds_alternative<FlatEmitter>(shape_); }
+    SourceSample sample_seen(const Seen& seen, const Point& from, UnitSquare u) const noexcept;
+    bool in_beam(const Vec3& to_centre, double distance) const noexcept;
     Shape shape_;
     const Material* material_;
+    Box box_;
     Point centre_;
     double radius_m_ = 0; ///< of a sphere about the centre that holds the source
     double area_m2_ = 0;
     Direction facing_; ///< of flat shapes
     bool flat_ = false;
-    double strength_ = 0; ///< photopic radiance
+    bool closed_form_ = false; ///< for its irradiance
+    double strength_ = 0;      ///< photopic radiance
+    const Spotlight* beam_ = nullptr;
+    Direction aim_;
+    double half_beam_rad_ = pi, cos_half_beam_ = -1, sin_half_beam_ = 0;
 };
 
 } // namespace lightwell

@@ -1,6 +1,7 @@
 #include "engine/sources/sky_source.h"
 
 #include "engine/sky/sky.h"
+#include "engine/sources/weighted_choice.h"
 #include "materials/emission.h"
 
 #include <algorithm>
@@ -75,16 +76,12 @@ std::size_t SkySource::cell(const Direction& direction) const noexcept
 
 SourceSample SkySource::sample(UnitSquare u) const noexcept
 {
-    const double wanted = u.u * summed_.back();
-    const auto at =
-        static_cast<std::size_t>(std::upper_bound(summed_.begin(), summed_.end() - 1, wanted) - summed_.begin());
-    const double before = at == 0 ? 0 : summed_[at - 1], part = summed_[at] - before;
+    const auto [at, share, left] = choose(summed_.data(), summed_.size(), u.u);
     SourceSample s;
-    if (!(part > 0))
+    if (!(share > 0))
         return s;
-    const double left = std::clamp((wanted - before) / part, 0.0, 0x1.fffffffffffffp-1);
     s.to_light = direction_at(static_cast<double>(at / sectors) + left, static_cast<double>(at % sectors) + u.v);
-    s.density_per_sr = part / (summed_.back() * cell_solid_angle_sr);
+    s.density_per_sr = share / cell_solid_angle_sr;
     s.radiance = radiance(s.to_light);
     return s;
 }

@@ -179,6 +179,7 @@ SourceList::SourceList(const Scene& scene, const RayQueries& rays)
 {
     Finder finder(scene, *this);
     finder.walk(scene.root, Affine{}, 0, nullptr);
+    lamp_tree_ = std::make_unique<LampTree>(lamps_);
     std::vector<const Surface*> wide;
     for (const Surface& surface : scene.root.surfaces) {
         if (surface.shape != Shape::source)

@@ -2,6 +2,7 @@
 
 #include "engine/accel/ray_queries.h"
 #include "engine/sources/guide.h"
+#include "engine/sources/lamp_tree.h"
 #include "engine/sources/local_source.h"
 #include "engine/sources/sky_source.h"
 
@@ -24,6 +25,7 @@ public:
     SourceList(const Scene& scene, const RayQueries& rays);
 
     const std::vector<LocalSource>& lamps() const noexcept { return lamps_; }
+    const LampTree& lamp_tree() const noexcept { return *lamp_tree_; }
     const std::vector<SunSource>& suns() const noexcept { return suns_; }
     const SkySource& sky() const noexcept { return sky_; }
     const Guide& guide() const noexcept { return *guide_; }
@@ -34,6 +36,7 @@ public:
 private:
     struct Finder;
     std::vector<LocalSource> lamps_;
+    std::unique_ptr<LampTree> lamp_tree_;
     std::vector<SunSource> suns_;
     SkySource sky_;
     std::unique_ptr<Guide> guide_;

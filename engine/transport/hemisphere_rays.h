@@ -9,7 +9,7 @@
 namespace lightwell {
 
 /// A place that receives light on one side of a surface.
-struct Receiver {
+struct SurfacePlace {
     Point position;
     Direction normal;   ///< on the side that receives
     double error_m = 0; ///< bound on how far the position may lie off the surface
@@ -24,10 +24,17 @@ struct Dependence {
 /// What one ray of a hemisphere brings to a receiver.
 struct Arrival {
     double distance_m = infinity; ///< to what the ray met first
+    bool met_lamp = false;        ///< straight away: its light is direct and not counted here
     Spectrum radiance;            ///< along the ray, W/(m^2 sr)
     /// One estimate of the receiver's ambient irradiance: the ray's light and a shadow ray to the sky, each with its
     /// weight, W/m^2. Without what the dependences add.
     Spectrum irradiance;
+};
+
+/// Light straight from the sources.
+struct DirectIrradiance {
+    Spectrum irradiance;   ///< W/m^2
+    double lamp_share = 0; ///< of the hemisphere, cosine-weighted, that shows lamps
 };
 
 /// Answers rays that leave a receiver, cosine-distributed, for those who sum them up. Ambient light is all that comes
@@ -37,16 +44,16 @@ public:
     virtual ~HemisphereRays() = default;
     /// @param direction    drawn with density cosine / pi
     /// @param dependences  what is added to the irradiance once the unknowns are known; appended
-    virtual Arrival arrive(const Receiver& receiver, const Direction& direction, PathRandom& random,
+    virtual Arrival arrive(const SurfacePlace& receiver, const Direction& direction, PathRandom& random,
                            std::vector<Dependence>& dependences) const = 0;
     /// A place of the same surface, or one that goes on from it, a little way off.
     /// @param offset  in the receiver's plane
     /// @param lift_m  how far above the plane the way there must be free, and the place may lie below or above
-    virtual bool beside(const Receiver& receiver, const Vec3& offset, double lift_m, Receiver& found) const = 0;
+    virtual bool beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const = 0;
     /// Distance to what a ray meets; infinity for nothing.
-    virtual double distance_m(const Receiver& receiver, const Direction& direction) const = 0;
-    /// Irradiance from lamps and suns.
-    virtual Spectrum direct(const Receiver& receiver, PathRandom& random) const = 0;
+    virtual double distance_m(const SurfacePlace& receiver, const Direction& direction) const = 0;
+    /// Irradiance from lamps and, when wanted, suns.
+    virtual DirectIrradiance direct(const SurfacePlace& receiver, bool with_suns, PathRandom& random) const = 0;
 };
 
 } // namespace lightwell

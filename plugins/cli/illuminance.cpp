@@ -31,7 +31,8 @@ Status illuminance(const IlluminanceOptions& options, std::ostream& out, std::os
     err << lit.report;
     MapJob job;
     job.grid = choose_grid(options.grid, lit.scene);
-    job.settings = {options.effort.samples, options.effort.accuracy, options.effort.seed, options.effort.threads};
+    job.settings = {options.effort.samples, options.effort.accuracy, options.effort.seed, options.effort.threads,
+                    options.effort.unbiased};
     job.files.assign(options.outputs.begin(), options.outputs.end());
     job.provenance = lit.provenance;
     job.report = lit.report;
@@ -61,6 +62,7 @@ void add_illuminance(CLI::App& app, Status& status)
         ->type_name("FILE");
     constexpr double map_accuracy = 0.02;
     add_effort_words(command, options->effort, map_accuracy);
+    add_unbiased_flag(command, options->effort);
     command.footer(examples);
     command.callback([options, &status] { status = illuminance(*options, std::cout, std::cerr); });
 }

@@ -1,0 +1,326 @@
+#include "engine/direct/tested_sources.h"
+
+#include "engine/sources/weighted_choice.h"
+#include "materials/emission.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace lightwell {
+namespace {
+
+/// The first shadow rays to a source, which only decide how many follow: were they part of the sum, their agreement
+/// would bias it.
+constexpr int probes = 4;
+/// Share of the rays that a source gets when the probes agree.
+constexpr int agreeing_divisor = 4;
+/// Most shadow rays to one source, of one kind.
+constexpr int most_rays_at_all = 64;
+/// Weight of irradiance beside radiance in a potential: black surfaces still want to know what falls on them.
+constexpr double irradiance_part = 0.05 / pi;
+/// A potential by the middle of a source may miss what its edge gives: not below this share of a safe estimate.
+constexpr double least_potential = 0.1;
+/// In choosing one of the untested sources, each has at least this share of its potential.
+constexpr double least_expectation = 0.05;
+
+bool same(const Spectrum& a, const Spectrum& b)
+{
+    const Spectrum difference = a - b;
+    return std::fabs(difference.r) + std::fabs(difference.g) + std::fabs(difference.b) <= 1e-12 * (a.max() + b.max());
+}
+
+int power_of_two(double wanted, int most)
+{
+    const double clamped = std::clamp(wanted, 1.0, static_cast<double>(std::min(most, most_rays_at_all)));
+    return static_cast<int>(std::bit_floor(static_cast<unsigned>(clamped)));
+}
+
+/// One for each thread, so that gathering takes no memory.
+template <class T>
+std::vector<T>& reused()
+{
+    thread_local std::vector<T> items;
+    items.clear();
+    return items;
+}
+
+} // namespace
+
+double nominal_rays(const LocalSource& lamp, std::size_t lamps, const DirectSettings& settings,
+                    const SourceShares& shares) noexcept
+{
+    if (!(lamp.seen_size(shares.from) < shares.glossy_width_rad))
+        return 0;
+    return settings.tree && lamps > settings.most_lamps
+               ? static_cast<double>(settings.most_lamps) / static_cast<double>(lamps)
+               : 1;
+}
+
+TestedSources::TestedSources(const Context& context, const Vertex& vertex, const SourceShares& shares,
+                             PathRandom& random)
+    : context_(context), vertex_(vertex), shares_(shares), random_(random), lamps_(context.sources.lamps().size()),
+      candidates_(reused<Candidate>())
+{
+    const Spectrum upright = diffuse_value({0, 0, 1}), upright_below = diffuse_value({0, 0, -1});
+    constexpr double grazing = 0.05; // cosine at which a lobe with Fresnel's losses would show them
+    const Direction slanted{std::sqrt(1 - grazing * grazing), 0, grazing};
+    const Direction slanted_below{slanted.x, 0, -grazing};
+    even_value_[near_side] = upright;
+    even_value_[far_side] = upright_below;
+    even_ = same(upright, diffuse_value(slanted)) && same(upright_below, diffuse_value(slanted_below));
+}
+
+Spectrum TestedSources::diffuse_value(const Direction& local) const noexcept
+{
+    if (even_)
+        return even_value_[local.z > 0 ? near_side : far_side];
+    return vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::diffuse);
+}
+
+void TestedSources::finish(Candidate& c, const Direction& to_middle, Spectrum source_radiance)
+{
+    Direction local = vertex_.frame.to_local(to_middle);
+    for (const Side side : {near_side, far_side}) {
+        if (!(c.projected_sr[side] > 0))
+            continue;
+        // A source that reaches over the horizon counts on both sides, whichever its middle is on.
+        local.z = side == near_side ? std::fabs(local.z) : -std::fabs(local.z);
+        const Spectrum arriving = source_radiance * (c.projected_sr[side] * c.weight);
+        c.radiance += arriving * diffuse_value(local);
+        if (side == near_side)
+            c.irradiance += arriving;
+        if (c.mis > 0 && vertex_.bsdf.lobes().glossy)
+            c.radiance += arriving * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular);
+    }
+    c.potential = photopic(c.radiance) + irradiance_part * photopic(c.irradiance);
+    total_ += c.potential;
+    candidates_.push_back(c);
+}
+
+void TestedSources::add_lamp(std::size_t lamp, double weight)
+{
+    const LocalSource& source = context_.sources.lamps()[lamp];
+    const double safe = source.potential(shares_.from, shares_.normal, shares_.transmits);
+    const Spectrum radiance = emitted_radiance(source.material());
+    const double photopic_radiance = photopic(radiance);
+    if (!(safe > 0) || !(photopic_radiance > 0))
+        return;
+    Candidate c{lamp, weight};
+    c.closed_form = true;
+    for (const Side side : {near_side, far_side}) {
+        if (side == far_side && !shares_.transmits)
+            continue;
+        const Direction normal = side == near_side ? vertex_.frame.z : -vertex_.frame.z;
+        const std::optional<double> exact = source.projected_solid_angle_sr(shares_.from, normal);
+        c.closed_form = c.closed_form && exact;
+        c.projected_sr[side] = exact ? *exact : source.middle_solid_angle_sr(shares_.from, normal);
+    }
+    if (!c.closed_form)
+        c.projected_sr[near_side] = std::fmax(c.projected_sr[near_side], least_potential * safe / photopic_radiance);
+    c.closed_form = c.closed_form && context_.settings.analytic;
+    c.size = source.seen_size(shares_.from);
+    c.mis = std::holds_alternative<Illum>(source.material()) ? infinity
+                                                             : nominal_rays(source, lamps_, context_.settings, shares_);
+    finish(c, normalized(source.centre() - shares_.from), radiance);
+}
+
+void TestedSources::add_sun(std::size_t sun)
+{
+    const SunSource& source = context_.sources.suns()[sun];
+    const Direction& to_sun = source.disc.to_source;
+    const double half = 0.5 * source.disc.full_angle_deg * radians_per_degree;
+    const double cosine = dot(vertex_.frame.z, to_sun), sine = std::sin(half);
+    Candidate c{lamps_ + sun, 1};
+    // Below the horizon by less than its half-angle, the sun still gives some light.
+    const double edge = least_potential * sine;
+    c.projected_sr[near_side] = pi * sine * sine * (cosine > -sine ? std::fmax(cosine, edge) : 0);
+    if (shares_.transmits)
+        c.projected_sr[far_side] = pi * sine * sine * (cosine < sine ? std::fmax(-cosine, edge) : 0);
+    c.closed_form = context_.settings.analytic && std::fabs(cosine) > sine;
+    c.size = 2 * sine;
+    finish(c, to_sun, source.radiance);
+}
+
+void TestedSources::find_candidates()
+{
+    const DirectSettings& settings = context_.settings;
+    const bool lamps = context_.kinds.lamps;
+    if (lamps && settings.tree && lamps_ > 0) {
+        auto& found = reused<LampTree::Representative>();
+        context_.sources.lamp_tree().cut({shares_.from, shares_.normal, shares_.transmits}, settings.most_lamps,
+                                         lamps_ > settings.most_lamps ? random_.one() : 0, found);
+        for (const LampTree::Representative& r : found)
+            add_lamp(static_cast<std::size_t>(r.lamp), 1 / r.probability);
+    } else {
+        for (std::size_t i = 0; lamps && i < lamps_; ++i)
+            add_lamp(i, 1);
+    }
+    for (std::size_t i = 0; context_.kinds.suns && i < context_.sources.suns().size(); ++i)
+        add_sun(i);
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+        return a.potential > b.potential || (a.potential == b.potential && a.source < b.source);
+    });
+}
+
+/// What the irradiance of a source without a closed form takes, however visible it is.
+int TestedSources::pieces(const Candidate& c) const noexcept
+{
+    const double along = c.size / context_.settings.subdivision;
+    return c.closed_form ? 1 : power_of_two(along * along, most_rays_at_all);
+}
+
+int TestedSources::rays_for(const Candidate& c) const noexcept
+{
+    if (!context_.settings.subdivide)
+        return 1;
+    // n rays to a source half hidden err by its potential / (2 sqrt(n)); sources share the noise by their potentials.
+    const double noise = context_.settings.penumbra_noise;
+    return std::max(power_of_two(c.potential / (4 * noise * noise * total_), context_.settings.most_rays), pieces(c));
+}
+
+double TestedSources::mis_weight(const Candidate& c, const SourceSample& sample, const Direction& local) const noexcept
+{
+    if (std::isinf(c.mis))
+        return 1;
+    return shadow_ray_weight(c.mis * sample.density_per_sr,
+                             vertex_.bsdf.density_per_sr(vertex_.to_viewer, local, LobeSet::specular));
+}
+
+void TestedSources::test_sample(const Candidate& c, const SourceSample& sample, Tested& tested)
+{
+    ++tested.samples;
+    if (!(sample.density_per_sr > 0))
+        return;
+    const Direction local = vertex_.frame.to_local(sample.to_light);
+    const Side side = local.z > 0 ? near_side : far_side;
+    if (side == far_side && !shares_.transmits)
+        return;
+    const double cosine = std::fabs(local.z) / sample.density_per_sr;
+    tested.cosines[side] += cosine;
+    tested.all += cosine;
+    ++tested.rays;
+    Spectrum seen;
+    if (!sample.radiance.is_black() && vertex_.same_side(sample.to_light, local)) {
+        ++sum_.shadow_rays;
+        seen = context_.rays.transmittance(shadow_ray(vertex_.hit, sample));
+    }
+    if (seen.is_black()) {
+        ++tested.blocked;
+        return;
+    }
+    tested.visible += photopic(seen) * cosine;
+    const Spectrum light = sample.radiance * seen * cosine;
+    tested.reflected[side] += light * diffuse_value(local);
+    if (side == near_side)
+        tested.arriving += light;
+    if (c.mis > 0 && vertex_.bsdf.lobes().glossy)
+        tested.highlight += light * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular) *
+                            mis_weight(c, sample, local);
+}
+
+TestedSources::Tested TestedSources::trace(const Candidate& c, int count)
+{
+    UnitSquare points[most_rays_at_all];
+    SourceSample samples[most_rays_at_all];
+    random_.pairs(count, points);
+    if (is_lamp(c)) {
+        context_.sources.lamps()[c.source].sample(shares_.from, points, count, samples);
+    } else {
+        const SunSource& sun = context_.sources.suns()[c.source - lamps_];
+        for (int i = 0; i < count; ++i)
+            samples[i] = sun.sample(points[i]);
+    }
+    Tested tested;
+    for (int i = 0; i < count; ++i)
+        test_sample(c, samples[i], tested);
+    return tested;
+}
+
+TestedSources::Light TestedSources::test(const Candidate& c)
+{
+    int count = rays_for(c);
+    if (count > probes) {
+        const Tested first = trace(c, probes);
+        if (first.blocked == 0 || first.blocked == first.rays)
+            count = std::max(count / agreeing_divisor, pieces(c));
+    }
+    const Tested tested = trace(c, count);
+    // A mean over the samples; where the whole is known, the visible share of it.
+    const auto scale = [&](Side side) {
+        return c.closed_form && tested.cosines[side] > 0 ? c.projected_sr[side] / tested.cosines[side]
+                                                         : 1.0 / tested.samples;
+    };
+    Light light;
+    light.irradiance = tested.arriving * (scale(near_side) * c.weight);
+    light.radiance = (tested.reflected[near_side] * scale(near_side) + tested.reflected[far_side] * scale(far_side) +
+                      tested.highlight / tested.samples) *
+                     c.weight;
+    light.visible_share = tested.all > 0 ? std::min(1.0, tested.visible / tested.all) : 0;
+    light.hemisphere_share = hemisphere_share(c) * light.visible_share;
+    if (context_.generation.counts != nullptr)
+        context_.generation.counts->record(c.source, light.visible_share);
+    return light;
+}
+
+double TestedSources::hemisphere_share(const Candidate& c) const noexcept
+{
+    return is_lamp(c) ? c.projected_sr[near_side] * c.weight / pi : 0;
+}
+
+double TestedSources::history(std::size_t i) const noexcept
+{
+    return context_.generation.history != nullptr ? context_.generation.history->rate(candidates_[i].source) : 1;
+}
+
+void TestedSources::add(const Light& light, double share)
+{
+    sum_.radiance += light.radiance * share;
+    sum_.irradiance += light.irradiance * share;
+    sum_.lamp_share += light.hemisphere_share * share;
+}
+
+void TestedSources::add_untested(const AdaptiveOutcome& outcome)
+{
+    if (!context_.settings.sampled_remainder) {
+        for (std::size_t i = outcome.tested; i < candidates_.size(); ++i) {
+            const Candidate& c = candidates_[i];
+            add({c.radiance, c.irradiance, 1, hemisphere_share(c)},
+                expected_visibility(outcome.success_ratio, history(i)));
+        }
+        sum_.doubt = outcome.doubt();
+        return;
+    }
+    auto& summed = reused<double>();
+    double total = 0;
+    for (std::size_t i = outcome.tested; i < candidates_.size(); ++i) {
+        const double expected = std::fmax(expected_visibility(outcome.success_ratio, history(i)), least_expectation);
+        summed.push_back(total += expected * candidates_[i].potential);
+    }
+    if (!(total > 0))
+        return;
+    const WeightedChoice chosen = choose(summed.data(), summed.size(), random_.one());
+    if (chosen.share > 0)
+        add(test(candidates_[outcome.tested + chosen.index]), 1 / chosen.share);
+}
+
+Gathered TestedSources::gather()
+{
+    find_candidates();
+    const DirectSettings& settings = context_.settings;
+    const AdaptiveOutcome outcome = test_adaptively(
+        candidates_.size(), [&](std::size_t i) { return candidates_[i].potential; },
+        [&](std::size_t i) { return history(i); },
+        [&](std::size_t i) {
+            const Light light = test(candidates_[i]);
+            add(light, 1);
+            return light.visible_share;
+        },
+        settings.adaptive ? settings.threshold : 0, settings.certainty);
+    sum_.tested = static_cast<int>(outcome.tested);
+    sum_.untested = static_cast<int>(candidates_.size() - outcome.tested);
+    if (sum_.untested > 0)
+        add_untested(outcome);
+    return sum_;
+}
+
+} // namespace lightwell
