@@ -28,7 +28,7 @@ bool same_layout(const Picture& a, const Picture& b)
         const auto found = p.header.find("settings");
         return found == p.header.end() ? std::string() : found->second;
     };
-    return a.width == b.width && a.height == b.height && settings(a) == settings(b) &&
+    return a.width == b.width && a.height == b.height && a.place == b.place && settings(a) == settings(b) &&
            std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
                       [](const auto& x, const auto& y) { return x.first == y.first; });
 }
@@ -122,7 +122,7 @@ GrowingPicture::GrowingPicture(std::filesystem::path file, const Picture& layout
 {
     state_->file = std::move(file);
     state_->partial = partial_name(state_->file);
-    state_->layout = {layout.width, layout.height, {}, layout.header};
+    state_->layout = {layout.width, layout.height, {}, layout.header, layout.place};
     for (const auto& [name, values] : layout.channels)
         state_->layout.channels[name];
     state_->tile_size = tile_size;
