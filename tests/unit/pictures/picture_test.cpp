@@ -1,0 +1,48 @@
+#include "engine/pictures/exr.h"
+#include "tests/unit/pictures/picture_fixtures.h"
+
+#include <limits>
+
+namespace lightwell {
+
+using namespace test;
+
+TEST(PartOfAPicture, KeepsItsPlaceInTheWholeAlsoInsideAPart)
+{
+    Picture whole = noise(20, 10, {"R", "Z"});
+    whole.header["view"] = "desk";
+    const Picture part = part_of(whole, 3, 4, 10, 5), corner = part_of(part, 9, 4, 1, 1);
+    EXPECT_EQ(part.place, (Picture::Place{3, 4, 20, 10}));
+    EXPECT_EQ(corner.place, (Picture::Place{12, 8, 20, 10}));
+    EXPECT_EQ(corner.at("Z", 0, 0), whole.at("Z", 12, 8));
+    EXPECT_EQ(part.at("R", 9, 0), whole.at("R", 12, 4));
+    EXPECT_EQ(part.header, whole.header);
+}
+
+TEST(PartOfAPicture, IsKeptByAFileAsItsDataWindow)
+{
+    const Folder folder;
+    const Picture whole = noise(200, 100, {"R", "G", "B"});
+    const Picture part = part_of(whole, 150, 3, 50, 97); // larger than one tile
+    write_exr(part, folder / "part.exr");
+    const Picture read = read_exr(folder / "part.exr");
+    EXPECT_EQ(read.place, part.place);
+    EXPECT_EQ(read.channels, part.channels);
+    write_exr(whole, folder / "whole.exr");
+    EXPECT_EQ(read_exr(folder / "whole.exr").place, Picture::Place{});
+}
+
+TEST(PartOfAPicture, AnAbsurdPlaceIsRefused)
+{
+    const Folder folder;
+    Picture picture = noise(4, 4, {"R"});
+    constexpr int most = std::numeric_limits<int>::max();
+    for (const Picture::Place& place : {Picture::Place{most, 0, 9, 9}, Picture::Place{0, -most, 9, 9},
+                                        Picture::Place{0, 0, most, 9}, Picture::Place{0, 0, 9, -1}}) {
+        picture.place = place;
+        EXPECT_NE(error_of([&] { write_exr(picture, folder / "p.exr"); }).find("a whole of"), std::string::npos);
+        EXPECT_EQ(folder.file_count(), 0u);
+    }
+}
+
+} // namespace lightwell
