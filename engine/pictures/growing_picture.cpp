@@ -28,9 +28,16 @@ bool same_layout(const Picture& a, const Picture& b)
         const auto found = p.header.find("settings");
         return found == p.header.end() ? std::string() : found->second;
     };
-    return a.width == b.width && a.height == b.height && a.place == b.place && settings(a) == settings(b) &&
+    return a.width == b.width && a.height == b.height && place_of(a) == place_of(b) && settings(a) == settings(b) &&
            std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
                       [](const auto& x, const auto& y) { return x.first == y.first; });
+}
+
+/// A part as large as the whole is the whole: a file cannot tell them apart.
+Picture::Place place_of(const Picture& layout)
+{
+    const bool whole = layout.place == Picture::Place{0, 0, layout.width, layout.height};
+    return whole ? Picture::Place{} : layout.place;
 }
 
 /// Tiles of an interrupted run; none when there was none, or it had other settings, or its file is damaged.
