@@ -22,6 +22,13 @@ std::filesystem::path partial_name(const std::filesystem::path& file)
     return partial;
 }
 
+/// A part as large as the whole is the whole: a file cannot tell them apart.
+Picture::Place place_of(const Picture& layout)
+{
+    const bool whole = layout.place == Picture::Place{0, 0, layout.width, layout.height};
+    return whole ? Picture::Place{} : layout.place;
+}
+
 bool same_layout(const Picture& a, const Picture& b)
 {
     const auto settings = [](const Picture& p) {
@@ -31,13 +38,6 @@ bool same_layout(const Picture& a, const Picture& b)
     return a.width == b.width && a.height == b.height && place_of(a) == place_of(b) && settings(a) == settings(b) &&
            std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
                       [](const auto& x, const auto& y) { return x.first == y.first; });
-}
-
-/// A part as large as the whole is the whole: a file cannot tell them apart.
-Picture::Place place_of(const Picture& layout)
-{
-    const bool whole = layout.place == Picture::Place{0, 0, layout.width, layout.height};
-    return whole ? Picture::Place{} : layout.place;
 }
 
 /// Tiles of an interrupted run; none when there was none, or it had other settings, or its file is damaged.
