@@ -76,7 +76,7 @@ void add_effort_words(CLI::App& command, EffortWords& words, double accuracy)
 void add_unbiased_flag(CLI::App& command, EffortWords& words)
 {
     command.add_flag("--unbiased", words.unbiased,
-                     "plain path tracing: pixels do not share the indirect light of their neighbours");
+                     "plain path tracing: nothing is stored and interpolated, only noise");
 }
 
 double parse_accuracy(const std::string& text)

@@ -358,7 +358,7 @@ class Interruption(Case):
         running = subprocess.Popen([PROGRAM, *self.WORDS, *more], cwd=self.folder, stderr=subprocess.PIPE, text=True)
         partial, deadline = self.folder / "p.partial.exr", time.monotonic() + wait_s
         while time.monotonic() < deadline and running.poll() is None:
-            if partial.exists() and partial.stat().st_size > 250_000:  # more than two tiles of 32 x 32 x 31 floats, packed
+            if partial.exists() and partial.stat().st_size > 120_000:  # more than two tiles of 32 x 32 x 13 floats, packed
                 break
             time.sleep(0.02)
         running.send_signal(signal_number)
