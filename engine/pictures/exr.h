@@ -8,7 +8,8 @@
 
 namespace lightwell {
 
-/// Tiled FLOAT channels, ZIP; header entries as text attributes, chromaticities and whiteLuminance of the engine.
+/// Tiled FLOAT channels, ZIP; header entries as text attributes, chromaticities and whiteLuminance of the engine. A
+/// part of a larger picture has that one as display window.
 /// @throws InputError when the file cannot be written; the final name never holds half a file
 void write_exr(const Picture& picture, const std::filesystem::path& file);
 /// @throws InputError: missing, truncated, not an OpenEXR file, no float or half channels, absurd size

@@ -15,7 +15,8 @@ namespace lightwell {
 void check_exr_layout(const std::string& place, const Picture& layout, int tile_size);
 
 /// Writes an OpenEXR file tile by tile: FLOAT, ZIP. What a call has written is with the operating system when the call
-/// returns, so that a killed program leaves a file with all tiles up to the last one.
+/// returns, so that a killed program leaves a file with all tiles up to the last one; a failure of power loses those of
+/// the last second or so.
 class ExrWriter {
 public:
     /// @param layout     size, channel names and header, checked by check_exr_layout()

@@ -75,6 +75,10 @@ Picture layout_of(const Imf::Header& from, const std::string& place)
     const Imath::Box2i window = from.dataWindow();
     picture.width = window.max.x - window.min.x + 1;
     picture.height = window.max.y - window.min.y + 1;
+    const Imath::Box2i whole = from.displayWindow();
+    if (whole != window)
+        picture.place = {window.min.x - whole.min.x, window.min.y - whole.min.y, whole.max.x - whole.min.x + 1,
+                         whole.max.y - whole.min.y + 1};
     for (auto channel = from.channels().begin(); channel != from.channels().end(); ++channel) {
         if (channel.channel().type == Imf::UINT)
             continue; // ids of objects and the like: no quantity
@@ -117,6 +121,7 @@ ExrTiles read_tiles(std::string_view bytes, const std::string& place)
             const Imath::Box2i window = input.dataWindowForTile(column, row);
             Picture tile = result.layout;
             tile.header.clear();
+            tile.place = {};
             tile.width = window.max.x - window.min.x + 1;
             tile.height = window.max.y - window.min.y + 1;
             try {

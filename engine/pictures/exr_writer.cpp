@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fcntl.h>
 #include <system_error>
@@ -66,9 +67,22 @@ public:
         start_ += pending_.size();
         pending_.clear();
     }
+    /// To the disk itself, so that a power failure does not lose it, but not for each small piece: a disk takes some
+    /// milliseconds to answer.
+    void sync_now_and_then()
+    {
+        constexpr std::chrono::seconds between{1};
+        const auto now = std::chrono::steady_clock::now();
+        if (now - synced_ < between)
+            return;
+        fdatasync(descriptor_); // what fails here shows again at finish()
+        synced_ = now;
+    }
     void finish()
     {
         flush();
+        if (error_ == 0 && fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) // not on every file system
+            error_ = errno;
         if (error_ == 0 && ::close(std::exchange(descriptor_, -1)) != 0)
             error_ = errno;
         if (error_ != 0)
@@ -79,6 +93,7 @@ private:
     int descriptor_;
     int error_ = 0;
     std::uint64_t start_ = 0; ///< where `pending_` goes
+    std::chrono::steady_clock::time_point synced_{};
     std::string pending_;
 };
 
@@ -140,9 +155,28 @@ void add_text(Imf::Header& header, const std::string& name, const std::string& t
     header.insert(name, Imf::StringAttribute(text));
 }
 
+void check_place(const Picture& layout, const std::string& place)
+{
+    constexpr int farthest = 1 << 29; // so that no corner leaves the range of whole numbers
+    const Picture::Place& within = layout.place;
+    for (const int number : {within.x, within.y, within.width, within.height})
+        if (number < -farthest || number > farthest)
+            throw InputError{place, "lies at pixel " + std::to_string(within.x) + ", " + std::to_string(within.y) +
+                                        " of a whole of " + std::to_string(within.width) + " x " +
+                                        std::to_string(within.height) + ", expected numbers below 2^29"};
+    if (within.height < 1)
+        throw InputError{place, "is part of a whole of " + std::to_string(within.height) + " rows"};
+}
+
 Imf::Header header_of(const Picture& layout, int tile_size, bool any_order, const std::string& place)
 {
     Imf::Header header(layout.width, layout.height);
+    if (const Picture::Place& within = layout.place; within.width > 0) {
+        check_place(layout, place);
+        header.displayWindow() = Imath::Box2i({0, 0}, {within.width - 1, within.height - 1});
+        header.dataWindow() =
+            Imath::Box2i({within.x, within.y}, {within.x + layout.width - 1, within.y + layout.height - 1});
+    }
     header.compression() = Imf::ZIP_COMPRESSION;
     header.lineOrder() = any_order ? Imf::RANDOM_Y : Imf::INCREASING_Y;
     const auto side = static_cast<unsigned>(tile_size);
@@ -198,14 +232,17 @@ ExrWriter::~ExrWriter() = default;
 
 void ExrWriter::write_tile(int x, int y, const Picture& from, int from_x, int from_y)
 {
+    const Imath::V2i origin = state_->output->header().dataWindow().min;
     Imf::FrameBuffer buffer;
     for (const auto& [name, values] : from.channels)
-        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, values.data(), {from_x, from_y}, from.width, from.height));
+        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, values.data(), {origin.x + from_x, origin.y + from_y},
+                                             from.width, from.height));
     const auto side_x = static_cast<int>(state_->output->tileXSize()),
                side_y = static_cast<int>(state_->output->tileYSize());
     state_->output->setFrameBuffer(buffer);
     state_->output->writeTile(x / side_x, y / side_y);
     state_->stream.flush();
+    state_->stream.sync_now_and_then();
 }
 
 void ExrWriter::close()

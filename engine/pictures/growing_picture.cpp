@@ -22,13 +22,20 @@ std::filesystem::path partial_name(const std::filesystem::path& file)
     return partial;
 }
 
+/// A part as large as the whole is the whole: a file cannot tell them apart.
+Picture::Place place_of(const Picture& layout)
+{
+    const bool whole = layout.place == Picture::Place{0, 0, layout.width, layout.height};
+    return whole ? Picture::Place{} : layout.place;
+}
+
 bool same_layout(const Picture& a, const Picture& b)
 {
     const auto settings = [](const Picture& p) {
         const auto found = p.header.find("settings");
         return found == p.header.end() ? std::string() : found->second;
     };
-    return a.width == b.width && a.height == b.height && settings(a) == settings(b) &&
+    return a.width == b.width && a.height == b.height && place_of(a) == place_of(b) && settings(a) == settings(b) &&
            std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
                       [](const auto& x, const auto& y) { return x.first == y.first; });
 }
@@ -122,7 +129,7 @@ GrowingPicture::GrowingPicture(std::filesystem::path file, const Picture& layout
 {
     state_->file = std::move(file);
     state_->partial = partial_name(state_->file);
-    state_->layout = {layout.width, layout.height, {}, layout.header};
+    state_->layout = {layout.width, layout.height, {}, layout.header, layout.place};
     for (const auto& [name, values] : layout.channels)
         state_->layout.channels[name];
     state_->tile_size = tile_size;

@@ -10,9 +10,16 @@ namespace lightwell {
 /// radiance in W/(m^2 sr); "illuminance.Y" lx, "Z" m along the view ray, "N.X" "N.Y" "N.Z", "error.R/G/B/Y"
 /// standard errors in the unit of what they belong to.
 struct Picture {
+    /// Where the pixels lie in a larger picture: its column and row of pixel (0, 0), and its size.
+    struct Place {
+        int x = 0, y = 0;
+        int width = 0, height = 0; ///< 0: the picture is the whole
+        bool operator==(const Place&) const noexcept = default;
+    };
     int width = 0, height = 0;
     std::map<std::string, std::vector<float>> channels; ///< each width * height values
     std::map<std::string, std::string> header;          ///< VIEW, settings, provenance: text attributes
+    Place place = {};
 
     float at(const std::string& channel, int x, int y) const
     {

@@ -9,113 +9,37 @@
 namespace lightwell {
 namespace {
 
-double half_extent(View::Kind kind, double full)
+/// The angle of the part `share` of a picture's side, for the projection of that side.
+double cropped_angle(View::Kind kind, bool across, double full, double share)
 {
+    const double half = 0.5 * full * radians_per_degree, whole = 2 / radians_per_degree;
     switch (kind) {
     case View::Kind::perspective:
-        return std::tan(0.5 * full * radians_per_degree);
+        return whole * std::atan(share * std::tan(half));
+    case View::Kind::cylindrical:
+        return across ? share * full : whole * std::atan(share * std::tan(half));
     case View::Kind::hemispherical:
-        return std::sin(0.5 * full * radians_per_degree);
-    case View::Kind::angular:
-        return 0.5 * full * radians_per_degree;
+        return whole * std::asin(share * std::sin(half));
+    case View::Kind::planisphere:
+        return whole * 2 * std::atan(share * std::tan(0.5 * half));
     case View::Kind::parallel:
-        return 0.5 * full;
+    case View::Kind::angular:
+        return share * full;
     }
-    return 0;
-}
-
-void check_extent(const View& view, double full, const char* word)
-{
-    const double limit = view.kind == View::Kind::perspective     ? 180
-                         : view.kind == View::Kind::hemispherical ? 180.0000001
-                         : view.kind == View::Kind::angular       ? 360.0000001
-                                                                  : infinity;
-    if (!(full > 0 && full < limit))
-        throw InputError{"view " + view.name, fmt::format("{} is {}, expected between 0 and {}", word, full, limit),
-                         "give a smaller field of view or another view type"};
+    return full;
 }
 
 } // namespace
 
-Camera::Camera(const View& view) : view_(view)
+View cropped(const View& view, double x0, double y0, double x1, double y1)
 {
-    const std::string place = "view " + view.name;
-    if (!is_finite(view.position) || !is_finite(view.direction) || !is_finite(view.up) || !std::isfinite(view.shift) ||
-        !std::isfinite(view.lift) || !(view.fore_m >= 0) || !(view.aft_m >= 0) ||
-        (view.aft_m > 0 && view.aft_m <= view.fore_m))
-        throw InputError{place, "a number is not finite, or the clipping distances are not 0 <= fore < aft",
-                         "check the view's words"};
-    check_extent(view, view.horizontal, "-vh");
-    check_extent(view, view.vertical, "-vv");
-    view_.direction = normalized(view.direction);
-    if (length(view_.direction) == 0)
-        throw InputError{place, "the view direction is zero", "give -vd a direction"};
-    const Vec3 right = cross(view_.direction, normalized(view.up));
-    // Below this sine the digits of the up vector no longer tell where up is.
-    constexpr double smallest_sine = 1e-9;
-    if (!(length(right) > smallest_sine))
-        throw InputError{
-            place, fmt::format("up ({}, {}, {}) is parallel to the view direction", view.up.x, view.up.y, view.up.z),
-            "give -vu another direction, e.g. 0 1 0 when looking straight down"};
-    const double width = half_extent(view.kind, view.horizontal), height = half_extent(view.kind, view.vertical);
-    const Direction unit_right = normalized(right);
-    right_ = unit_right * width;
-    up_ = cross(unit_right, view_.direction) * height;
-    aspect_ = width / height;
-}
-
-bool Camera::ray(double x, double y, ViewRay& ray) const noexcept
-{
-    const double sx = 2 * (x - 0.5 + view_.shift), sy = 2 * (y - 0.5 + view_.lift);
-    ray.origin = view_.position;
-    ray.direction = view_.direction;
-    const Vec3 aside = right_ * sx + up_ * sy;
-    switch (view_.kind) {
-    case View::Kind::perspective:
-        ray.direction = normalized(view_.direction + aside);
-        break;
-    case View::Kind::parallel:
-        ray.origin += aside;
-        break;
-    case View::Kind::hemispherical: {
-        const double squared = dot(aside, aside);
-        if (squared > 1)
-            return false;
-        ray.direction = normalized(view_.direction * std::sqrt(1 - squared) + aside);
-        break;
-    }
-    case View::Kind::angular: {
-        const double angle = length(aside);
-        if (angle > pi)
-            return false;
-        if (angle > 0)
-            ray.direction = normalized(view_.direction * std::cos(angle) + aside * (std::sin(angle) / angle));
-        break;
-    }
-    }
-    ray.origin += ray.direction * view_.fore_m;
-    return true;
-}
-
-double Camera::pixel_solid_angle_sr(double x, double y, int width, int height) const noexcept
-{
-    const double sx = 2 * (x - 0.5 + view_.shift), sy = 2 * (y - 0.5 + view_.lift);
-    const Vec3 aside = right_ * sx + up_ * sy;
-    const double element = 4 * length(right_) * length(up_) / (static_cast<double>(width) * height);
-    const double squared = dot(aside, aside);
-    switch (view_.kind) {
-    case View::Kind::perspective:
-        return element / std::pow(1 + squared, 1.5);
-    case View::Kind::parallel:
-        return 0;
-    case View::Kind::hemispherical:
-        return squared >= 1 ? 0 : element / std::sqrt(1 - squared);
-    case View::Kind::angular: {
-        const double angle = std::sqrt(squared);
-        return angle > pi ? 0 : angle > 0 ? element * std::sin(angle) / angle : element;
-    }
-    }
-    return 0;
+    View part = view;
+    const double width = x1 - x0, height = y1 - y0;
+    part.horizontal = cropped_angle(view.kind, true, view.horizontal, width);
+    part.vertical = cropped_angle(view.kind, false, view.vertical, height);
+    part.shift = (0.5 * (x0 + x1) - 0.5 + view.shift) / width;
+    part.lift = (0.5 * (y0 + y1) - 0.5 + view.lift) / height;
+    return part;
 }
 
 namespace {
@@ -148,12 +72,13 @@ private:
 
 View::Kind view_kind(std::string_view word, const std::string& place)
 {
-    for (const View::Kind kind :
-         {View::Kind::perspective, View::Kind::parallel, View::Kind::hemispherical, View::Kind::angular})
+    for (const View::Kind kind : {View::Kind::perspective, View::Kind::parallel, View::Kind::cylindrical,
+                                  View::Kind::hemispherical, View::Kind::angular, View::Kind::planisphere})
         if (word.size() == 4 && word[3] == static_cast<char>(kind))
             return kind;
     throw InputError{place, fmt::format("view type \"{}\" is not known", word),
-                     "use -vtv perspective, -vtl parallel, -vth hemispherical or -vta angular fisheye"};
+                     "use -vtv perspective, -vtl parallel, -vtc cylindrical, or a fisheye: -vth hemispherical, "
+                     "-vta angular, -vts planisphere"};
 }
 
 } // namespace
@@ -188,9 +113,13 @@ View parse_view(const std::string& text, const std::string& place)
             view.fore_m = words.number(word);
         else if (word == "-va")
             view.aft_m = words.number(word);
+        else if (word == "-pd")
+            view.lens_m = words.number(word);
+        else if (word == "-pf")
+            view.focus_m = words.number(word);
         else
             throw InputError{place, fmt::format("\"{}\" is not a word of a view", word),
-                             "use -vt -vp -vd -vu -vh -vv -vs -vl -vo -va"};
+                             "use -vt -vp -vd -vu -vh -vv -vs -vl -vo -va -pd -pf"};
     }
     return view;
 }
@@ -198,10 +127,14 @@ View parse_view(const std::string& text, const std::string& place)
 std::string to_text(const View& view)
 {
     const auto triple = [](const Vec3& v) { return shortest(v.x) + ' ' + shortest(v.y) + ' ' + shortest(v.z); };
-    return fmt::format("-vt{} -vp {} -vd {} -vu {} -vh {} -vv {} -vs {} -vl {} -vo {} -va {}",
-                       static_cast<char>(view.kind), triple(view.position), triple(view.direction), triple(view.up),
-                       shortest(view.horizontal), shortest(view.vertical), shortest(view.shift), shortest(view.lift),
-                       shortest(view.fore_m), shortest(view.aft_m));
+    std::string text =
+        fmt::format("-vt{} -vp {} -vd {} -vu {} -vh {} -vv {} -vs {} -vl {} -vo {} -va {}",
+                    static_cast<char>(view.kind), triple(view.position), triple(view.direction), triple(view.up),
+                    shortest(view.horizontal), shortest(view.vertical), shortest(view.shift), shortest(view.lift),
+                    shortest(view.fore_m), shortest(view.aft_m));
+    if (view.lens_m > 0)
+        text += " -pd " + shortest(view.lens_m) + " -pf " + shortest(view.focus_m);
+    return text;
 }
 
 } // namespace lightwell

@@ -28,7 +28,6 @@ struct PixelTask {
     const PathTracer& tracer;
     int width, height;
     std::uint64_t seed;
-    double reach_m; ///< between the clipping distances
 
     PixelResult operator()(int x, int y, int samples) const
     {
@@ -56,9 +55,10 @@ private:
     {
         const UnitSquare jitter = random.pair();
         ViewRay start;
-        if (!camera.ray((x + jitter.u) / width, 1 - (y + jitter.v) / height, start))
+        const UnitSquare lens = camera.has_lens() ? random.pair() : UnitSquare{};
+        if (!camera.ray((x + jitter.u) / width, 1 - (y + jitter.v) / height, lens, start))
             return;
-        const PathSample path = tracer.sample({start.origin, start.direction, reach_m}, replicate, random);
+        const PathSample path = tracer.sample({start.origin, start.direction, start.reach_m}, replicate, random);
         radiance += path.radiance;
         if (!path.met_surface)
             return;
@@ -125,19 +125,20 @@ std::vector<Tile> tiles_of(int width, int height)
     return tiles;
 }
 
-/// Luminance at an even lattice of pixels.
+/// Luminance at an even lattice of pixels of a part of the picture.
 struct Lattice {
     std::vector<int> x, y;
     std::vector<double> values, errors;
 };
-Lattice measure_lattice(const PixelTask& task, int columns, int rows, int samples, int threads, Teller& teller)
+Lattice measure_lattice(const PixelTask& task, const Tile& part, int columns, int rows, int samples, int threads,
+                        Teller& teller)
 {
     Lattice lattice;
-    const int nx = std::min(columns, task.width), ny = std::min(rows, task.height);
+    const int nx = std::min(columns, part.width), ny = std::min(rows, part.height);
     for (int row = 0; row < ny; ++row)
         for (int column = 0; column < nx; ++column) {
-            lattice.x.push_back((2 * column + 1) * task.width / (2 * nx));
-            lattice.y.push_back((2 * row + 1) * task.height / (2 * ny));
+            lattice.x.push_back(part.x + (2 * column + 1) * part.width / (2 * nx));
+            lattice.y.push_back(part.y + (2 * row + 1) * part.height / (2 * ny));
         }
     lattice.values.resize(lattice.x.size());
     lattice.errors.resize(lattice.x.size());
@@ -156,14 +157,13 @@ struct Sights {
     const Camera& camera;
     const PathTracer& tracer;
     int width, height;
-    double reach_m;
 
     bool ray(int x, int y, Ray& out) const
     {
         ViewRay start;
         if (!camera.ray((x + 0.5) / width, 1 - (y + 0.5) / height, start))
             return false;
-        out = {start.origin, start.direction, reach_m};
+        out = {start.origin, start.direction, start.reach_m};
         return true;
     }
     void candidates(int x, int y, std::vector<AmbientCandidate>& found) const
@@ -217,11 +217,14 @@ void check_size(const View& view, const PictureSettings& settings)
                                                               settings.width, settings.height, most_pixels_a_side)};
 }
 
-/// All tiles, those kept from an interrupted run included.
-Picture render_tiles(const PixelTask& pixel, int samples, int threads, const TileStore& store, Teller& teller)
+/// All tiles of a part of the picture, those kept from an interrupted run included.
+Picture render_tiles(const PixelTask& pixel, const Tile& wanted, int samples, int threads, const TileStore& store,
+                     Teller& teller)
 {
-    Picture picture = empty_picture(pixel.width, pixel.height);
-    const std::vector<Tile> tiles = tiles_of(pixel.width, pixel.height);
+    Picture picture = empty_picture(wanted.width, wanted.height);
+    if (wanted.width < pixel.width || wanted.height < pixel.height)
+        picture.place = {wanted.x, wanted.y, pixel.width, pixel.height};
+    const std::vector<Tile> tiles = tiles_of(wanted.width, wanted.height);
     parallel_for(tiles.size(), threads, [&](std::size_t i) {
         const Tile& tile = tiles[i];
         std::optional<Picture> part = store.stored ? store.stored(tile) : std::nullopt;
@@ -233,7 +236,7 @@ Picture render_tiles(const PixelTask& pixel, int samples, int threads, const Til
                     put(*part,
                         static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
                             static_cast<std::size_t>(x),
-                        pixel(tile.x + x, tile.y + y, samples), samples);
+                        pixel(wanted.x + tile.x + x, wanted.y + tile.y + y, samples), samples);
             }
             if (store.finished)
                 store.finished(tile, *part);
@@ -255,12 +258,14 @@ double median_relative_error(const Picture& picture)
     return median_relative(luminance, error);
 }
 
-BiasEstimate check_bias(const PixelTask& plain, const Picture& picture, int threads, Teller& teller)
+BiasEstimate check_bias(const PixelTask& plain, const Tile& wanted, const Picture& picture, int threads, Teller& teller)
 {
-    const Lattice lattice = measure_lattice(plain, check_columns, check_rows, check_paths, threads, teller);
+    const Lattice lattice = measure_lattice(plain, wanted, check_columns, check_rows, check_paths, threads, teller);
     std::vector<Checked> points;
     for (std::size_t i = 0; i < lattice.values.size(); ++i) {
-        const auto at = [&](const char* channel) { return picture.at(channel, lattice.x[i], lattice.y[i]); };
+        const auto at = [&](const char* channel) {
+            return picture.at(channel, lattice.x[i] - wanted.x, lattice.y[i] - wanted.y);
+        };
         points.push_back({luminance_of({at("R"), at("G"), at("B")}).value, lattice.values[i], lattice.errors[i]});
     }
     return bias_of(points);
@@ -273,6 +278,19 @@ std::vector<std::string> tile_channels()
     return {std::begin(channel_names), std::end(channel_names)};
 }
 
+Tile wanted_pixels(const PictureSettings& settings)
+{
+    const Tile whole{0, 0, settings.width, settings.height};
+    const Tile& wanted = settings.region.width == 0 ? whole : settings.region;
+    if (wanted.x < 0 || wanted.y < 0 || wanted.width < 1 || wanted.height < 1 ||
+        wanted.width > whole.width - wanted.x || wanted.height > whole.height - wanted.y)
+        throw InputError{
+            fmt::format("region {},{},{},{}", wanted.x, wanted.y, wanted.x + wanted.width, wanted.y + wanted.height),
+            fmt::format("is not inside the picture of {} x {} pixels", whole.width, whole.height),
+            "give the first column and row, and the ones after the last: 0,0 is the top left pixel"};
+    return wanted;
+}
+
 PictureResult Simulation::render(const View& view, const PictureSettings& settings, const Progress& progress,
                                  const TileStore& store) const
 {
@@ -280,35 +298,33 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     check_size(view, settings);
     check_accuracy(settings.accuracy, "view " + view.name);
     const Camera camera(view);
-    const double reach_m = view.aft_m > 0 ? view.aft_m - view.fore_m : infinity;
+    const Tile wanted = wanted_pixels(settings), whole{0, 0, settings.width, settings.height};
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
     AmbientBuild ambient(*parts_,
                          ambient_effort(settings.accuracy, settings.techniques, settings.seed, settings.threads),
                          settings.techniques);
     if (!plain) {
         Teller teller(progress, "ambient light, view " + view.name, 5);
-        build(ambient, {camera, parts_->tracer, settings.width, settings.height, reach_m}, settings.techniques,
-              settings.threads, teller);
+        build(ambient, {camera, parts_->tracer, settings.width, settings.height}, settings.techniques, settings.threads,
+              teller);
     }
-    PixelTask pixel{camera, plain ? parts_->tracer : ambient.tracer(), settings.width, settings.height, settings.seed,
-                    reach_m};
+    PixelTask pixel{camera, plain ? parts_->tracer : ambient.tracer(), settings.width, settings.height, settings.seed};
     PictureResult result;
     result.samples = whole_replicates(settings.samples);
     if (settings.samples <= 0) {
         Teller teller(progress, "pilot run", pilot_columns * pilot_rows);
         const Lattice pilot =
-            measure_lattice(pixel, pilot_columns, pilot_rows, pilot_samples, settings.threads, teller);
+            measure_lattice(pixel, whole, pilot_columns, pilot_rows, pilot_samples, settings.threads, teller);
         result.samples =
             samples_for(median_relative(pilot.values, pilot.errors), pilot_samples, settings.accuracy, most_samples);
     }
-    Teller teller(progress, "view " + view.name, tiles_of(settings.width, settings.height).size());
-    result.picture = render_tiles(pixel, result.samples, settings.threads, store, teller);
+    Teller teller(progress, "view " + view.name, tiles_of(wanted.width, wanted.height).size());
+    result.picture = render_tiles(pixel, wanted, result.samples, settings.threads, store, teller);
     result.median_relative_error = median_relative_error(result.picture);
     if (!plain) {
         Teller check(progress, "check, view " + view.name, check_columns * check_rows);
-        result.bias =
-            check_bias({camera, parts_->tracer, settings.width, settings.height, mix_bits(settings.seed), reach_m},
-                       result.picture, settings.threads, check);
+        result.bias = check_bias({camera, parts_->tracer, settings.width, settings.height, mix_bits(settings.seed)},
+                                 wanted, result.picture, settings.threads, check);
     }
     result.seconds = seconds_since(start);
     return result;

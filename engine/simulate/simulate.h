@@ -36,7 +36,13 @@ struct PictureSettings {
     int threads = 0;       ///< 0: all processors; the result does not depend on it
     bool unbiased = false; ///< plain path tracing: no cache, no interpolation, only noise
     Techniques techniques = {};
+    /// The part that is wanted; width 0: all. Its pixels have the same bits as those of the whole picture.
+    Tile region = {};
 };
+
+/// The pixels that are wanted: the region, or all. Tiles are counted from its corner.
+/// @throws InputError when the region is not within the picture
+Tile wanted_pixels(const PictureSettings& settings);
 
 /// Difference of a result to plain path tracing at a few pixels or sensors, relative to their mean: what
 /// interpolation and coarse further bounces do, apart from the noise that the standard errors state.
@@ -54,7 +60,8 @@ struct TileStore {
 };
 
 struct PictureResult {
-    Picture picture; ///< channels as in picture.h, with error.R, error.G, error.B, error.Y (1 standard error)
+    Picture picture; ///< of the region; channels as in picture.h, with error.R, error.G, error.B, error.Y (1 standard
+                     ///< error)
     double median_relative_error = 0; ///< of luminance, over the pixels that are not black
     BiasEstimate bias;
     int samples = 0;

@@ -148,16 +148,15 @@ Vec3 vector_of(const TomlTable& table, const char* word)
 View::Kind kind_of(const TomlTable& table)
 {
     const std::string kind = table.text("kind").value_or("perspective");
-    if (kind == "perspective")
-        return View::Kind::perspective;
-    if (kind == "parallel")
-        return View::Kind::parallel;
-    if (kind == "hemispherical")
-        return View::Kind::hemispherical;
-    if (kind == "angular")
-        return View::Kind::angular;
+    constexpr std::pair<const char*, View::Kind> kinds[] = {
+        {"perspective", View::Kind::perspective}, {"parallel", View::Kind::parallel},
+        {"cylindrical", View::Kind::cylindrical}, {"hemispherical", View::Kind::hemispherical},
+        {"angular", View::Kind::angular},         {"planisphere", View::Kind::planisphere}};
+    for (const auto& [name, found] : kinds)
+        if (kind == name)
+            return found;
     throw InputError{table.place_of("kind"), "kind is \"" + kind + '"',
-                     "expected perspective, parallel, hemispherical or angular"};
+                     "expected perspective, parallel, cylindrical, hemispherical, angular or planisphere"};
 }
 
 View view_by_words(const TomlTable& table)
@@ -172,19 +171,27 @@ View view_by_words(const TomlTable& table)
         table.has("direction") ? vector_of(table, "direction") : vector_of(table, "target") - view.position;
     if (table.has("up"))
         view.up = vector_of(table, "up");
-    const bool fisheye = view.kind == View::Kind::hemispherical || view.kind == View::Kind::angular;
+    const bool fisheye = view.kind == View::Kind::hemispherical || view.kind == View::Kind::angular ||
+                         view.kind == View::Kind::planisphere;
     view.horizontal = table.number("horizontal").value_or(fisheye ? 180 : view.horizontal);
     view.vertical = table.number("vertical").value_or(fisheye ? 180 : view.vertical);
+    view.shift = table.number("shift").value_or(0);
+    view.lift = table.number("lift").value_or(0);
+    view.fore_m = table.number("fore").value_or(0);
+    view.aft_m = table.number("aft").value_or(0);
+    view.lens_m = table.number("lens").value_or(0);
+    view.focus_m = table.number("focus").value_or(0);
     return view;
 }
 
 ProjectView read_view(const TomlTable& table, std::size_t number)
 {
-    table.expect_words(
-        {"name", "text", "position", "direction", "target", "up", "kind", "horizontal", "vertical", "size"});
+    table.expect_words({"name", "text", "position", "direction", "target", "up", "kind", "horizontal", "vertical",
+                        "shift", "lift", "fore", "aft", "lens", "focus", "size"});
     ProjectView result;
     if (const auto text = table.text("text")) {
-        for (const char* word : {"position", "direction", "target", "up", "kind", "horizontal", "vertical"})
+        for (const char* word : {"position", "direction", "target", "up", "kind", "horizontal", "vertical", "shift",
+                                 "lift", "fore", "aft", "lens", "focus"})
             if (table.has(word))
                 throw InputError{table.place_of(word), std::string(word) + " stands beside text",
                                  "give the view in Radiance's words or in ours, not in both"};

@@ -51,7 +51,8 @@ struct Project {
 
 /// Words: `[inputs] files, map, unit, up`; `[place] latitude, longitude (east positive), utc_offset, north, time`;
 /// `[sky] type = "clear" | "intermediate" | "overcast" | "uniform" | "none", sun, turbidity, ground_reflectance`;
-/// `[[view]] name, text or position with direction or target, up, kind, horizontal, vertical; size`;
+/// `[[view]] name, text or position with direction or target, up, kind, horizontal, vertical, shift, lift, fore, aft,
+/// lens, focus; size`;
 /// `[[grid]] on, spacing, name`; `[wish] accuracy or samples, seed`; `[output] folder, png, hdr`.
 /// @throws InputError with file and line: TOML errors, unknown words, values out of range, what is missing
 Project read_project(const std::filesystem::path& file);

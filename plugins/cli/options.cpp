@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+
 namespace lightwell {
 
 void add_import_words(CLI::App& command, ImportWords& words)
@@ -74,7 +76,7 @@ void add_effort_words(CLI::App& command, EffortWords& words, double accuracy)
 void add_unbiased_flag(CLI::App& command, EffortWords& words)
 {
     command.add_flag("--unbiased", words.unbiased,
-                     "plain path tracing: slower, without interpolated or coarse ambient light");
+                     "plain path tracing: nothing is stored and interpolated, only noise");
 }
 
 double parse_accuracy(const std::string& text)
@@ -87,13 +89,32 @@ double parse_accuracy(const std::string& text)
     return accuracy;
 }
 
+namespace {
+
+constexpr long long most_pixels_a_side = 32768; // beyond any screen and plotter; what the simulation takes
+
+} // namespace
+
+RegionWords parse_region(const std::string& text)
+{
+    std::vector<int> numbers;
+    for (const std::string_view word : split(text, ","))
+        if (const auto number = parse_integer(word); number && *number >= 0 && *number <= most_pixels_a_side)
+            numbers.push_back(static_cast<int>(*number));
+    const bool four = numbers.size() == 4 && std::count(text.begin(), text.end(), ',') == 3;
+    if (!four || numbers[0] >= numbers[2] || numbers[1] >= numbers[3])
+        throw CLI::ValidationError("--region", "\"" + text +
+                                                   "\" is no region; expected X0,Y0,X1,Y1 in pixels with X0 < X1 and "
+                                                   "Y0 < Y1, row 0 at the top, for example 100,50,200,150");
+    return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
 std::pair<int, int> parse_size(const std::string& text)
 {
-    constexpr long long most = 32768; // beyond any screen and plotter; what the simulation takes
     const auto parts = split(text, "x");
     const auto width = parts.size() == 2 ? parse_integer(parts[0]) : std::nullopt;
     const auto height = parts.size() == 2 ? parse_integer(parts[1]) : std::nullopt;
-    if (!width || !height || *width < 1 || *height < 1 || *width > most || *height > most)
+    if (!width || !height || *width < 1 || *height < 1 || *width > most_pixels_a_side || *height > most_pixels_a_side)
         throw CLI::ValidationError("--size", "\"" + text + "\" is no size; expected WIDTHxHEIGHT, for example 960x540");
     return {static_cast<int>(*width), static_cast<int>(*height)};
 }

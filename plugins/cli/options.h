@@ -44,6 +44,12 @@ void add_effort_words(CLI::App& command, EffortWords& words, double accuracy);
 /// "5%" or "0.05".
 /// @throws CLI::ValidationError unless it lies between 0 and 1
 double parse_accuracy(const std::string& text);
+/// "X0,Y0,X1,Y1": columns X0 to X1 - 1 and rows Y0 to Y1 - 1 of a picture, row 0 at the top.
+struct RegionWords {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+/// @throws CLI::ValidationError unless 0 <= X0 < X1 <= 32768 and the same for Y
+RegionWords parse_region(const std::string& text);
 /// "960x540": width and height in pixels.
 /// @throws CLI::ValidationError unless both are in 1 ... 32768
 std::pair<int, int> parse_size(const std::string& text);

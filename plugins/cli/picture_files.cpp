@@ -27,14 +27,22 @@ std::string hexadecimal(std::uint64_t bits)
     return text;
 }
 
+std::string region_text(const Tile& region)
+{
+    if (region.width == 0)
+        return "";
+    return ", region " + std::to_string(region.x) + "," + std::to_string(region.y) + "," +
+           std::to_string(region.x + region.width) + "," + std::to_string(region.y + region.height);
+}
+
 /// Everything that determines the pixels: a partial file goes on only when all of it agrees.
 std::string settings_text(const Simulation& simulation, const PictureJob& job)
 {
     const PictureSettings& s = job.settings;
     const std::string effort =
         s.samples > 0 ? "samples " + std::to_string(s.samples) : "accuracy " + shortest(s.accuracy);
-    return "size " + std::to_string(s.width) + "x" + std::to_string(s.height) + ", " + effort + ", seed " +
-           std::to_string(s.seed) + ", scene " + hexadecimal(scene_hash(simulation.scene())) + ", view " +
+    return "size " + std::to_string(s.width) + "x" + std::to_string(s.height) + region_text(s.region) + ", " + effort +
+           ", seed " + std::to_string(s.seed) + ", scene " + hexadecimal(scene_hash(simulation.scene())) + ", view " +
            to_text(job.view) + (s.unbiased ? ", unbiased, " : ", ") + program_version();
 }
 
@@ -59,12 +67,24 @@ PictureResult render_tiles(const Simulation& simulation, const PictureJob& job, 
     return simulation.render(job.view, job.settings, line.progress(), store);
 }
 
+/// A Radiance picture knows no whole that it is a part of: the part becomes a view of its own.
+Picture for_itself(Picture picture, const View& view)
+{
+    const Picture::Place& whole = picture.place;
+    if (whole.width == 0)
+        return picture;
+    const double width = whole.width, height = whole.height;
+    picture.header["VIEW"] = to_text(cropped(view, whole.x / width, 1 - (whole.y + picture.height) / height,
+                                             (whole.x + picture.width) / width, 1 - whole.y / height));
+    return picture;
+}
+
 void write_companions(const PictureResult& result, const PictureJob& job)
 {
     if (job.png)
         write_png(tone_mapped(result.picture), std::filesystem::path(job.file).replace_extension(".png"));
     if (job.hdr)
-        write_rgbe(result.picture, std::filesystem::path(job.file).replace_extension(".hdr"));
+        write_rgbe(for_itself(result.picture, job.view), std::filesystem::path(job.file).replace_extension(".hdr"));
     RunRecord record;
     record.seconds = result.seconds;
     record.threads = job.settings.threads;
@@ -111,7 +131,10 @@ void fit_to_view(const View& view, PictureSettings& settings)
 
 Status make_picture(const Simulation& simulation, const PictureJob& job, std::ostream& out, std::ostream& err)
 {
-    Picture layout{job.settings.width, job.settings.height, {}, picture_header(simulation, job)};
+    const Tile wanted = wanted_pixels(job.settings);
+    Picture layout{wanted.width, wanted.height, {}, picture_header(simulation, job)};
+    if (job.settings.region.width > 0)
+        layout.place = {wanted.x, wanted.y, job.settings.width, job.settings.height};
     for (const std::string& name : tile_channels())
         layout.channels[name];
     ProgressLine line(job.file.filename().string());

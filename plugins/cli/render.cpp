@@ -17,6 +17,7 @@ struct RenderOptions {
     EffortWords effort;
     std::string view, output;
     std::pair<int, int> size{960, 540};
+    RegionWords region;
     bool png = false, hdr = false;
 };
 
@@ -25,9 +26,12 @@ constexpr const char* examples = R"(Examples:
   lightwell render room.rad --view "-vp 2 1 1.6 -vd 0 1 0 -vh 60 -vv 40" --accuracy 2% -o room.exr
   lightwell render house.glb --map map.toml --sky clear --place 52.5,13.4 --time 2026-03-21T12:00+01:00 \
       --view "-vp 0 -20 5 -vd 0 1 -0.1" --size 1600x900 -o house.exr --png --hdr
-View words: -vtv perspective, -vtl parallel, -vth hemispherical or -vta angular fisheye; -vp position, -vd direction,
--vu up, -vh and -vv horizontal and vertical angle in degrees (metres for a parallel view).
-The picture grows as room.partial.exr. After Ctrl-C the same command goes on where it stopped, to the same bits.
+  lightwell render room.rad --view desk --size 1600x900 --region 700,300,900,450 -o corner.exr
+View words: -vtv perspective, -vtl parallel, -vtc cylindrical, or a fisheye: -vth hemispherical, -vta angular, -vts
+planisphere; -vp position, -vd direction, -vu up, -vh and -vv horizontal and vertical angle in degrees (metres for a
+parallel view); -vs shift, -vl lift; -vo, -va fore and aft clipping distance; -pd diameter of the lens in metres, sharp
+at -pf metres or, without it, at the length of -vd.
+The picture grows as room.partial.exr. After Ctrl-C or a kill the same command goes on where it stopped, to the same bits.
 Beside room.exr stands room.run.json: command, host, time, samples, accuracy reached, notes of the import.)";
 
 Status render(const RenderOptions& options, std::ostream& out, std::ostream& err)
@@ -42,6 +46,9 @@ Status render(const RenderOptions& options, std::ostream& out, std::ostream& err
     job.settings = {options.size.first,  options.size.second,    options.effort.samples, options.effort.accuracy,
                     options.effort.seed, options.effort.threads, options.effort.unbiased};
     fit_to_view(job.view, job.settings);
+    const RegionWords& region = options.region;
+    job.settings.region = {region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0};
+    wanted_pixels(job.settings); // refuses one that is not in the picture before anything is made
     job.file = options.output;
     job.png = options.png;
     job.hdr = options.hdr;
@@ -72,6 +79,12 @@ void add_render(CLI::App& app, Status& status)
             "--size", [options](const std::string& text) { options->size = parse_size(text); },
             "largest size; pixels stay square, so the view's shape decides one side (default 960x540)")
         ->type_name("WxH");
+    command
+        .add_option_function<std::string>(
+            "--region", [options](const std::string& text) { options->region = parse_region(text); },
+            "only columns X0 to X1-1 and rows Y0 to Y1-1 of the picture, row 0 at the top: the same bits as in the "
+            "whole")
+        ->type_name("X0,Y0,X1,Y1");
     constexpr double picture_accuracy = 0.05;
     add_effort_words(command, options->effort, picture_accuracy);
     add_unbiased_flag(command, options->effort);

@@ -12,6 +12,7 @@ import tempfile
 import time
 import unittest
 
+from exr_file import windows_and_pixels
 from scenes import OBJ, ROOM_RAD, VIEW, face_dxf
 
 PROGRAM = os.environ.get("LIGHTWELL", "build/release/lightwell")
@@ -54,6 +55,11 @@ class Usage(Case):
         for words in ((), ("paint",), ("render",), ("layers",), ("render", "room.rad", "--colour", "red"),
                       ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--size", "0x10"),
                       ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--size", "wide"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--region", "1,2,3"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--region", "5,2,5,9"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--region", "-1,0,5,9"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--region", "0,0,nan,9"),
+                      ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--region", "0,0,99999999999,9"),
                       ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--accuracy", "0"),
                       ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--accuracy", "nan"),
                       ("render", "room.rad", "--view", VIEW, "-o", "a.exr", "--samples", "-5"),
@@ -256,6 +262,39 @@ class Outputs(Case):
         self.assertLess(record["median_relative_error"], 0.02 * 1.5)  # an error found from few replicates is itself uncertain
 
 
+class Region(Case):
+    WORDS = ("render", "room.rad", "--view", VIEW.replace("-vv 45", "-vv 60"), "--samples", "8", "--size", "72x72")
+
+    def render(self, name, *more):
+        self.expect(DONE, *self.WORDS, "-o", name, *more)
+        return windows_and_pixels((self.folder / name).read_bytes())
+
+    def test_a_region_is_a_window_of_the_whole_with_the_same_bits(self):
+        for more in ((), ("--unbiased",)):
+            data, display, whole = self.render("whole.exr", *more)
+            self.assertEqual((data, display), ((0, 0, 71, 71), (0, 0, 71, 71)))
+            data, display, part = self.render("part.exr", "--region", "40,10,72,41", *more)
+            self.assertEqual((data, display), ((40, 10, 71, 40), (0, 0, 71, 71)))
+            self.assertEqual(sorted(part), sorted(whole))
+            for channel, pixels in part.items():
+                self.assertEqual(len(pixels), 32 * 31)
+                self.assertEqual(pixels, {place: whole[channel][place] for place in pixels}, channel)
+
+    def test_the_radiance_picture_of_a_region_has_the_view_of_the_region(self):
+        self.render("part.exr", "--region", "0,36,36,72", "--hdr")
+        header = (self.folder / "part.hdr").read_bytes().split(b"\n\n")[0].decode()
+        view = header.split("VIEW=")[1].split("\n")[0].split()
+        quarter = math.degrees(2 * math.atan(math.tan(math.radians(30)) / 2))
+        self.assertAlmostEqual(float(view[view.index("-vh") + 1]), quarter, 9)
+        self.assertAlmostEqual(float(view[view.index("-vs") + 1]), -0.5, 9)
+        self.assertAlmostEqual(float(view[view.index("-vl") + 1]), -0.5, 9)
+
+    def test_a_region_that_is_not_in_the_picture_is_refused_before_work_begins(self):
+        self.expect(BAD_INPUT, *self.WORDS, "-o", "part.exr", "--region", "40,10,73,41",
+                    says=["region 40,10,73,41", "72 x 72"])
+        self.assertEqual(self.files(), ["room.rad"])
+
+
 class Project(Case):
     TEXT = """
 [inputs]
@@ -314,12 +353,12 @@ folder = "results"
 class Interruption(Case):
     WORDS = ("render", "room.rad", "--view", VIEW, "-o", "p.exr", "--samples", "64", "--size", "128x96", "--seed", "7")
 
-    def interrupt(self, signal_number, wait_s):
+    def interrupt(self, signal_number, wait_s, *more):
         """Sends the signal once tiles have been written."""
-        running = subprocess.Popen([PROGRAM, *self.WORDS], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        running = subprocess.Popen([PROGRAM, *self.WORDS, *more], cwd=self.folder, stderr=subprocess.PIPE, text=True)
         partial, deadline = self.folder / "p.partial.exr", time.monotonic() + wait_s
         while time.monotonic() < deadline and running.poll() is None:
-            if partial.exists() and partial.stat().st_size > 60_000:  # a tile of 32 x 32 x 13 floats
+            if partial.exists() and partial.stat().st_size > 120_000:  # more than two tiles of 32 x 32 x 13 floats, packed
                 break
             time.sleep(0.02)
         running.send_signal(signal_number)
@@ -343,12 +382,24 @@ class Interruption(Case):
         self.expect(DONE, *self.WORDS)
         self.assertEqual(resumed, (self.folder / "p.exr").read_bytes())
 
-    def test_a_killed_run_leaves_no_final_name_and_goes_on(self):
-        running, _ = self.interrupt(signal.SIGKILL, 60)
-        self.assertEqual(running.returncode, -signal.SIGKILL)
-        self.assertNotIn("p.exr", self.files())
-        self.expect(DONE, *self.WORDS)
-        self.assertIn("p.exr", self.files())
+    def test_a_killed_run_leaves_no_final_name_and_goes_on_to_the_same_bytes(self):
+        for more in ((), ("--region", "11,5,120,90"), ("--region", "11,5,120,90", "--unbiased")):
+            running, _ = self.interrupt(signal.SIGKILL, 60, *more)
+            self.assertEqual(running.returncode, -signal.SIGKILL)
+            self.assertNotIn("p.exr", self.files())
+            done = self.expect(DONE, *self.WORDS, *more)
+            self.assertIn("going on after", done.stderr)
+            resumed = (self.folder / "p.exr").read_bytes()
+            (self.folder / "p.exr").unlink()
+            self.expect(DONE, *self.WORDS, *more)
+            self.assertEqual(resumed, (self.folder / "p.exr").read_bytes())
+            (self.folder / "p.exr").unlink()
+
+    def test_a_partial_region_is_not_continued_as_another_one(self):
+        self.interrupt(signal.SIGKILL, 60, "--region", "11,5,120,90")
+        done = self.run_program(*self.WORDS, "--region", "12,5,120,90")
+        self.assertNotIn("going on after", done.stderr)
+        self.assertEqual(done.returncode, DONE, done.stderr)
 
     def test_a_partial_picture_of_other_settings_is_not_continued(self):
         self.interrupt(signal.SIGINT, 60)

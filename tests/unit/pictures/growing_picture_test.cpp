@@ -105,6 +105,36 @@ TEST(GrowingPicture, ATornTileIsComputedAgainAndTheOthersAreKept)
     EXPECT_EQ(GrowingPicture(folder / "out.exr", picture, tile_size).resumed_tiles(), 9u);
 }
 
+TEST(GrowingPicture, APartOfALargerPictureGoesOnOnlyAsTheSamePart)
+{
+    const Folder folder;
+    Picture picture = whole_picture();
+    picture.place = {13, 40, 500, 300};
+    write_tiles_and_die(folder / "out.exr", picture, 9);
+    Picture other = picture;
+    other.place.x = 14;
+    GrowingPicture next(folder / "out.exr", picture, tile_size);
+    EXPECT_EQ(next.resumed_tiles(), 9u);
+    for (const auto& [x, y] : places_in(picture)) {
+        const std::optional<Picture> tile = next.stored(x, y);
+        EXPECT_TRUE(!tile || same_bits(*tile, tile_of(picture, x, y, tile_size)));
+    }
+    next.finish(picture);
+    EXPECT_TRUE(same_bits(read_exr(folder / "out.exr"), picture));
+    EXPECT_EQ(read_exr(folder / "out.exr").place, picture.place);
+    write_tiles_and_die(folder / "out.exr", picture, 9);
+    EXPECT_EQ(GrowingPicture(folder / "out.exr", other, tile_size).resumed_tiles(), 0u);
+}
+
+TEST(GrowingPicture, APartAsLargeAsTheWholeGoesOn)
+{
+    const Folder folder;
+    Picture picture = whole_picture();
+    picture.place = {0, 0, picture.width, picture.height};
+    write_tiles_and_die(folder / "out.exr", picture, 9);
+    EXPECT_EQ(GrowingPicture(folder / "out.exr", picture, tile_size).resumed_tiles(), 9u);
+}
+
 TEST(GrowingPicture, TheFinalFileDoesNotDependOnHowItGrew)
 {
     const Folder folder;

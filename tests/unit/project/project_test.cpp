@@ -121,6 +121,40 @@ hdr = true
     EXPECT_TRUE(project.output.hdr);
 }
 
+TEST_F(ProjectFile, AViewHasShiftClippingAndLens)
+{
+    const Project project = read(R"([inputs]
+files = ["house.dxf"]
+[[view]]
+position = [1, 2, 3]
+target = [1, 5, 3]
+kind = "cylindrical"
+horizontal = 300
+shift = 0.25
+lift = -0.5
+fore = 1
+aft = 40
+lens = 0.05
+focus = 6
+[[view]]
+position = [0, 0, 0]
+direction = [0, 1, 0]
+kind = "planisphere"
+)");
+    const View& view = project.views[0].view;
+    EXPECT_EQ(to_text(view),
+              "-vtc -vp 1 2 3 -vd 0 3 0 -vu 0 0 1 -vh 300 -vv 45 -vs 0.25 -vl -0.5 -vo 1 -va 40 -pd 0.05 -pf 6");
+    EXPECT_EQ(to_text(project.views[1].view),
+              "-vts -vp 0 0 0 -vd 0 1 0 -vu 0 0 1 -vh 180 -vv 180 -vs 0 -vl 0 -vo 0 -va 0");
+    EXPECT_NE(complaint(inputs + "[[view]]\ntext = \"-vtv\"\nlens = 1\n").find("lens stands beside text"),
+              std::string::npos);
+    EXPECT_NE(complaint(inputs + "[[view]]\nposition = [0, 0, 0]\ntarget = [0, 1, 0]\nkind = \"round\"\n")
+                  .find("cylindrical"),
+              std::string::npos);
+    EXPECT_NE(complaint(inputs + "[[view]]\nposition = [0, 0, 0]\ntarget = [0, 1, 0]\nlens = -1\n").find("lens"),
+              std::string::npos);
+}
+
 TEST_F(ProjectFile, WithoutAPlaceThereIsElectricLightOnlyAndWithOneAClearSky)
 {
     EXPECT_FALSE(read(inputs).sky);
