@@ -151,5 +151,43 @@ TEST(CacheWriters, AllWritersKilledAtOnceLoseOnlyTheirUnwrittenBlocks)
         EXPECT_TRUE(found[w] == done[w] || found[w] == done[w] + 1) << w << ": " << found[w] << " of " << done[w];
 }
 
+/// Kills a writer of one large block while its file has grown to more than nothing and less than all of it.
+/// @return true when the block was indeed left unfinished
+bool kill_within_a_write(const std::filesystem::path& file, std::uintmax_t header_bytes)
+{
+    constexpr std::size_t large = 3'000'000;
+    const pid_t pid = fork();
+    if (pid == 0) {
+        CacheFile(file, identity()).append(1, 1, std::vector<double>(large, 0.5));
+        _exit(0);
+    }
+    const auto all = header_bytes + block_header_bytes + 8 * large;
+    for (int polls = 0; polls < 10'000'000 && std::filesystem::file_size(file) == header_bytes; ++polls) {
+    }
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+    const auto size = std::filesystem::file_size(file);
+    return size > header_bytes && size < all;
+}
+
+TEST(CacheWriters, ABlockTornByAKillIsRemovedByTheNextWriterAndNothingElse)
+{
+    const ScratchFile file("torn");
+    bool torn = false;
+    for (int attempt = 0; attempt < 20 && !torn; ++attempt) {
+        std::filesystem::remove(file.path);
+        CacheFile(file.path, identity());
+        const auto header_bytes = std::filesystem::file_size(file.path);
+        torn = kill_within_a_write(file.path, header_bytes);
+    }
+    if (!torn)
+        GTEST_SKIP() << "this system finishes every write before a process ends";
+    CacheFile reader(file.path, identity()), next(file.path, identity());
+    EXPECT_TRUE(reader.read_new().empty());
+    next.append(2, 2, std::vector<double>{2});
+    EXPECT_TRUE(next.report().has(Finding::repaired));
+    EXPECT_EQ(reader.read_new(), (std::vector<CacheBlock>{{2, 2, {2}}}));
+}
+
 } // namespace
 } // namespace lightwell
