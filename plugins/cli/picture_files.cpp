@@ -5,8 +5,8 @@
 #include "engine/pictures/exr.h"
 #include "engine/pictures/png.h"
 #include "engine/pictures/rgbe.h"
+#include "engine/scene/scene_hash.h"
 #include "plugins/cli/provenance.h"
-#include "plugins/cli/scene_hash.h"
 #include "plugins/cli/terminal.h"
 
 #include <cmath>
