@@ -77,6 +77,12 @@ void add_unbiased_flag(CLI::App& command, EffortWords& words)
                      "plain path tracing: pixels do not share the indirect light of their neighbours");
 }
 
+void add_plan_flag(CLI::App& command, EffortWords& words)
+{
+    command.add_flag("--plan", words.plan,
+                     "first predicts cost and error; they stand beside what was reached in NAME.run.json");
+}
+
 double parse_accuracy(const std::string& text)
 {
     const bool percent = !text.empty() && text.back() == '%';
