@@ -1,3 +1,4 @@
+#include "plugins/cli/forecast.h"
 #include "plugins/cli/map_files.h"
 #include "plugins/cli/scene_input.h"
 #include "plugins/cli/subcommands.h"
@@ -41,6 +42,11 @@ Status illuminance(const IlluminanceOptions& options, std::ostream& out, std::os
         err << lit.provenance["sky"] << '\n';
     const Simulation simulation(std::move(lit.scene));
     catch_interrupts();
+    if (options.effort.plan) {
+        const Forecast expected = forecast(simulation, job.grid, job.settings);
+        err << to_text(expected);
+        job.predicted = expected.prediction;
+    }
     return make_map(simulation, job, out, err);
 }
 
@@ -63,6 +69,7 @@ void add_illuminance(CLI::App& app, Status& status)
     constexpr double map_accuracy = 0.02;
     add_effort_words(command, options->effort, map_accuracy);
     add_unbiased_flag(command, options->effort);
+    add_plan_flag(command, options->effort);
     command.footer(examples);
     command.callback([options, &status] { status = illuminance(*options, std::cout, std::cerr); });
 }

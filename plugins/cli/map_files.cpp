@@ -90,7 +90,7 @@ void write_map_picture(const MapJob& job, const GridResult& result, const std::f
     write_exr(picture, file);
 }
 
-void write_files(const MapJob& job, const GridResult& result)
+void write_files(const MapJob& job, const GridResult& result, double cpu_seconds)
 {
     for (const std::filesystem::path& file : job.files) {
         const std::string extension = lowercase_ascii(file.extension().string());
@@ -103,6 +103,8 @@ void write_files(const MapJob& job, const GridResult& result)
     }
     RunRecord record;
     record.seconds = result.seconds;
+    record.cpu_seconds = cpu_seconds;
+    record.predicted = job.predicted;
     record.threads = job.settings.threads;
     record.samples = result.samples;
     record.wanted_accuracy = job.settings.accuracy;
@@ -150,8 +152,9 @@ Status make_map(const Simulation& simulation, const MapJob& job, std::ostream& o
     check_map_files(job);
     try {
         ProgressLine line(job.files.front().filename().string());
+        const double start = process_cpu_seconds();
         const GridResult result = simulation.illuminance(job.grid, job.settings, line.progress());
-        write_files(job, result);
+        write_files(job, result, process_cpu_seconds() - start);
         std::string names;
         for (const std::filesystem::path& file : job.files)
             names += (names.empty() ? "" : ", ") + file.string();

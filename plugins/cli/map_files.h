@@ -1,11 +1,12 @@
 #pragma once
 
-#include "engine/simulate/simulate.h"
+#include "engine/control/predict.h"
 #include "plugins/cli/status.h"
 
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct MapJob {
     std::vector<std::filesystem::path> files; ///< .csv, .exr or .png, any number
     std::map<std::string, std::string> provenance;
     Report report;
+    std::optional<Prediction> predicted = {};
 };
 
 /// Mean, extremes and uniformity (minimum / mean) of a map, lx.

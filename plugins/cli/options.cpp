@@ -79,6 +79,12 @@ void add_unbiased_flag(CLI::App& command, EffortWords& words)
                      "plain path tracing: nothing is stored and interpolated, only noise");
 }
 
+void add_plan_flag(CLI::App& command, EffortWords& words)
+{
+    command.add_flag("--plan", words.plan,
+                     "first predicts cost and error; they stand beside what was reached in NAME.run.json");
+}
+
 double parse_accuracy(const std::string& text)
 {
     const bool percent = !text.empty() && text.back() == '%';

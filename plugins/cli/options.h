@@ -35,9 +35,12 @@ struct EffortWords {
     std::uint64_t seed = 1;
     int threads = 0;
     bool unbiased = false;
+    bool plan = false;
 };
 /// `--unbiased`, for pictures.
 void add_unbiased_flag(CLI::App& command, EffortWords& words);
+/// `--plan`: predict cost and error before the run.
+void add_plan_flag(CLI::App& command, EffortWords& words);
 /// @param accuracy  the default, relative
 void add_effort_words(CLI::App& command, EffortWords& words, double accuracy);
 

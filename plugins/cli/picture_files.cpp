@@ -5,8 +5,8 @@
 #include "engine/pictures/exr.h"
 #include "engine/pictures/png.h"
 #include "engine/pictures/rgbe.h"
+#include "engine/scene/scene_hash.h"
 #include "plugins/cli/provenance.h"
-#include "plugins/cli/scene_hash.h"
 #include "plugins/cli/terminal.h"
 
 #include <cmath>
@@ -79,7 +79,7 @@ Picture for_itself(Picture picture, const View& view)
     return picture;
 }
 
-void write_companions(const PictureResult& result, const PictureJob& job)
+void write_companions(const PictureResult& result, const PictureJob& job, double cpu_seconds)
 {
     if (job.png)
         write_png(tone_mapped(result.picture), std::filesystem::path(job.file).replace_extension(".png"));
@@ -87,6 +87,8 @@ void write_companions(const PictureResult& result, const PictureJob& job)
         write_rgbe(for_itself(result.picture, job.view), std::filesystem::path(job.file).replace_extension(".hdr"));
     RunRecord record;
     record.seconds = result.seconds;
+    record.cpu_seconds = cpu_seconds;
+    record.predicted = job.predicted;
     record.threads = job.settings.threads;
     record.samples = result.samples;
     record.wanted_accuracy = job.settings.accuracy;
@@ -142,6 +144,7 @@ Status make_picture(const Simulation& simulation, const PictureJob& job, std::os
     if (growing.resumed_tiles() > 0)
         err << job.file.string() << ": going on after " << growing.resumed_tiles() << " finished tiles\n";
     try {
+        const double start = process_cpu_seconds();
         PictureResult result = render_tiles(simulation, job, growing, line);
         result.picture.header.insert(layout.header.begin(), layout.header.end());
         result.picture.header["samples"] = std::to_string(result.samples);
@@ -151,7 +154,7 @@ Status make_picture(const Simulation& simulation, const PictureJob& job, std::os
         }
         result.picture.header["median_relative_error"] = shortest(result.median_relative_error);
         growing.finish(result.picture);
-        write_companions(result, job);
+        write_companions(result, job, process_cpu_seconds() - start);
         out << picture_line(result, job) << '\n';
     } catch (const Cancelled&) {
         return explain_interruption(job, line.fraction(), err);

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "engine/simulate/simulate.h"
+#include "engine/control/predict.h"
 #include "plugins/cli/status.h"
 
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace lightwell {
@@ -18,6 +19,7 @@ struct PictureJob {
     bool png = false, hdr = false;
     std::map<std::string, std::string> provenance; ///< of the scene
     Report report;                                 ///< of the scene, for the run record
+    std::optional<Prediction> predicted = {};
 };
 
 /// Largest size within width x height whose pixels are square in the view.

@@ -83,9 +83,15 @@ void write_run_record(const std::filesystem::path& result, const RunRecord& reco
     json["processors"] = std::thread::hardware_concurrency();
     json["threads"] = record.threads == 0 ? static_cast<int>(std::thread::hardware_concurrency()) : record.threads;
     json["seconds"] = record.seconds;
+    json["cpu_seconds"] = record.cpu_seconds;
     json["samples"] = record.samples;
     json["wanted_accuracy"] = record.wanted_accuracy;
     json["median_relative_error"] = record.median_relative_error;
+    if (record.predicted)
+        json["predicted"] = {{"cpu_seconds", record.predicted->cpu_seconds},
+                             {"median_relative_error", record.predicted->error},
+                             {"samples", record.predicted->samples},
+                             {"pilot_cpu_seconds", record.predicted->pilot_cpu_seconds}};
     for (const auto& [name, value] : record.more)
         json["settings"][name] = to_utf8(value);
     json["notes"] = nlohmann::ordered_json::array();

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "engine/base/report.h"
+#include "engine/control/predict.h"
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +19,13 @@ void remember_command(const std::vector<std::string>& arguments);
 /// What varies from run to run and therefore stands beside a result, not in it: NAME.run.json.
 struct RunRecord {
     double seconds = 0;
-    int threads = 0; ///< as asked; 0: all processors
+    double cpu_seconds = 0; ///< of all threads
+    int threads = 0;        ///< as asked; 0: all processors
     int samples = 0;
     double wanted_accuracy = 0;
     double median_relative_error = 0;
     std::map<std::string, std::string> more; ///< settings of the result, as in its header
+    std::optional<Prediction> predicted;
     Report report;
 };
 /// `room.exr` -> `room.run.json`.

@@ -1,5 +1,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
+#include "plugins/cli/forecast.h"
 #include "plugins/cli/picture_files.h"
 #include "plugins/cli/scene_input.h"
 #include "plugins/cli/subcommands.h"
@@ -58,6 +59,11 @@ Status render(const RenderOptions& options, std::ostream& out, std::ostream& err
         err << lit.provenance["sky"] << '\n';
     const Simulation simulation(std::move(lit.scene));
     catch_interrupts();
+    if (options.effort.plan) {
+        const Forecast expected = forecast(simulation, job.view, job.settings);
+        err << to_text(expected);
+        job.predicted = expected.prediction;
+    }
     return make_picture(simulation, job, out, err);
 }
 
@@ -88,6 +94,7 @@ void add_render(CLI::App& app, Status& status)
     constexpr double picture_accuracy = 0.05;
     add_effort_words(command, options->effort, picture_accuracy);
     add_unbiased_flag(command, options->effort);
+    add_plan_flag(command, options->effort);
     command.footer(examples);
     command.callback([options, &status] { status = render(*options, std::cout, std::cerr); });
 }

@@ -1,7 +1,6 @@
 #include "plugins/cli/map_files.h"
 #include "plugins/cli/picture_files.h"
 #include "plugins/cli/provenance.h"
-#include "plugins/cli/scene_hash.h"
 #include "plugins/cli/terminal.h"
 
 #include <gtest/gtest.h>
@@ -41,32 +40,6 @@ TEST(PictureSize, KeepsPixelsSquareWithinTheGivenSize)
     fit_to_view(view, settings);
     EXPECT_EQ(settings.width, 100);
     EXPECT_EQ(settings.height, 50);
-}
-
-Scene one_triangle(double x, double reflectance)
-{
-    Scene scene;
-    const ModifierId grey = scene.add_material("grey", Plastic{Spectrum::grey(reflectance)});
-    scene.root.add_polygon({{x, 0, 0}, {1, 0, 0}, {0, 1, 0}}, grey, "t");
-    return scene;
-}
-
-TEST(SceneHash, ChangesWithGeometryAndMaterialsAndNotWithViews)
-{
-    const std::uint64_t hash = scene_hash(one_triangle(0, 0.5));
-    EXPECT_EQ(hash, scene_hash(one_triangle(0, 0.5)));
-    EXPECT_NE(hash, scene_hash(one_triangle(1e-12, 0.5)));
-    EXPECT_NE(hash, scene_hash(one_triangle(0, 0.5000001)));
-    Scene seen = one_triangle(0, 0.5);
-    seen.views.emplace_back();
-    EXPECT_EQ(hash, scene_hash(seen));
-    Scene moved = one_triangle(0, 0.5);
-    moved.prototypes.emplace_back();
-    moved.root.add_instance({0, Affine::translate({0, 0, 1}), {}}, "i");
-    Scene elsewhere = one_triangle(0, 0.5);
-    elsewhere.prototypes.emplace_back();
-    elsewhere.root.add_instance({0, Affine::translate({0, 0, 2}), {}}, "i");
-    EXPECT_NE(scene_hash(moved), scene_hash(elsewhere));
 }
 
 TEST(Terminal, SaysDurationsInTheirUsualUnits)

@@ -1,0 +1,93 @@
+#include "engine/plan/plan.h"
+#include "plugins/cli/picture_files.h"
+#include "plugins/cli/plan_text.h"
+#include "plugins/cli/scene_input.h"
+#include "plugins/cli/subcommands.h"
+#include "plugins/cli/terminal.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+namespace lightwell {
+namespace {
+
+struct PlanOptions {
+    SceneWords scene;
+    EffortWords effort;
+    std::string view, grid;
+    std::pair<int, int> size{960, 540};
+    double time_s = 0;
+    bool explain = false, json = false;
+};
+
+constexpr const char* examples = R"(Examples:
+  lightwell plan room.rad                                        what is in the scene and what that takes
+  lightwell plan room.rad --grid layer:A-FLOR@0.75/0.5 --accuracy 1%   and what it will cost
+  lightwell plan room.rad --view desk --within 60 --explain        and which accuracy a minute buys
+  lightwell plan room.rad --json                                 for programs
+Cost is in CPU seconds of one thread, from a pilot run of about a second. `render --plan` and `illuminance --plan` write
+the prediction beside what was reached, in NAME.run.json.)";
+
+Forecast forecast_wish(const PlanOptions& options, const Simulation& simulation)
+{
+    const EffortWords& effort = options.effort;
+    if (!options.grid.empty())
+        return forecast(simulation, choose_grid(options.grid, simulation.scene()),
+                        {effort.samples, effort.accuracy, effort.seed, effort.threads});
+    const View view = choose_view(options.view, simulation.scene());
+    PictureSettings settings{options.size.first, options.size.second, effort.samples, effort.accuracy,
+                             effort.seed,        effort.threads,      effort.unbiased};
+    fit_to_view(view, settings);
+    return forecast(simulation, view, settings);
+}
+
+Status plan(const PlanOptions& options, std::ostream& out, std::ostream& err)
+{
+    LitScene lit = load_scene(options.scene);
+    err << lit.report;
+    validate(lit.scene);
+    PlanWish wish;
+    wish.accuracy = options.effort.accuracy;
+    const Plan made = plan_for(needs_of(lit.scene), wish);
+    std::optional<Forecast> expected;
+    std::optional<TimeOffer> offer;
+    if (!options.view.empty() || !options.grid.empty()) {
+        catch_interrupts();
+        expected = forecast_wish(options, Simulation(std::move(lit.scene)));
+        if (options.time_s > 0)
+            offer = {options.time_s, accuracy_within(expected->prediction, expected->items, options.time_s)};
+    }
+    out << (options.json ? plan_json(made, expected, offer) : plan_text(made, expected, offer, options.explain));
+    return Status::done;
+}
+
+} // namespace
+
+/// lightwell plan SCENE [--view V | --grid G]: what the scene needs, what will be done, at what cost.
+void add_plan(CLI::App& app, Status& status)
+{
+    auto options = std::make_shared<PlanOptions>();
+    CLI::App& command = *app.add_subcommand("plan", "what a scene needs, and the cost and error to expect");
+    add_scene_words(command, options->scene);
+    CLI::Option* view = command.add_option("--view", options->view, "predict a picture: name, file or view words");
+    command.add_option("--grid", options->grid, "predict an illuminance map: layer:..., plane:..., file:... or a name")
+        ->excludes(view);
+    command
+        .add_option_function<std::string>(
+            "--size", [options](const std::string& text) { options->size = parse_size(text); },
+            "largest size of the picture (default 960x540)")
+        ->type_name("WxH");
+    command.add_option("--within", options->time_s, "CPU seconds: which accuracy do they buy?")
+        ->check(CLI::PositiveNumber)
+        ->type_name("SECONDS");
+    command.add_flag("--explain", options->explain, "also the stages that the scene does not need, and why not");
+    command.add_flag("--json", options->json, "for programs, on standard output");
+    constexpr double usual_accuracy = 0.05;
+    add_effort_words(command, options->effort, usual_accuracy);
+    add_unbiased_flag(command, options->effort);
+    command.footer(examples);
+    command.callback([options, &status] { status = plan(*options, std::cout, std::cerr); });
+}
+
+} // namespace lightwell
