@@ -11,7 +11,7 @@ LADDERS = {
 
 
 def lightwell_ladder(kind, row):
-    return LADDERS[kind].get(row, LADDERS[kind][""])
+    return LADDERS[kind].get(row[0], LADDERS[kind][""])
 
 
 # Radiance: what its driver `rad` sets for QUALITY = Low, Medium (DETAIL and VARIABILITY Medium, PENUMBRAS on); {ar} is
@@ -31,7 +31,7 @@ def radiance_settings(row, room_ratio):
     bounces = {"a80": 20, "a95": 60, "a99": 200}
     if row in bounces:
         return [("Low, ab 40", f"{low} -ab 40"), (f"expert, ab {bounces[row]}", f"{expert} -ab {bounces[row]}")]
-    if row == "d":
+    if row.startswith("d"):
         return [("every lamp, no penumbra", "-ab 0 -dt 0 -dc 1 -ds 0 -st 1"), ("Low", f"{low} -ab 0"),
                 ("Medium", f"{medium} -ab 0")]
     if row.startswith("c"):

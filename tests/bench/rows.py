@@ -42,6 +42,9 @@ def matching(points, wanted):
 
 
 def _row(name, title, scene, points, file, goals, room_ratio, noise=None):
+    """@param file  reference; without it all values are unknown and every point counts"""
+    if not file.exists():
+        return Row(name, title, scene, points, np.full(len(points), np.nan), np.arange(len(points)), 0.0, goals, room_ratio)
     places, values, found_noise = read_reference(file)
     return Row(name, title, scene, points, values, matching(points, places), found_noise if noise is None else noise,
                goals, room_ratio)
@@ -89,15 +92,45 @@ def daylit_row(yardstick, folder, blended):
                 [(0.05, 0.2), (0.016, 2.0)], 25.7)
 
 
-def theatre_row(yardstick, folder):
-    """Direct light alone: all surfaces black, so that nothing else is computed."""
+DIFFERENCE = """
+{ The clear sky as its formula gives it, minus the one that skybright.cal blends into the ground; A1-A5 as in sky.cal }
+blended_clear = A4*(.91 + 10*exp(-3*acos(cl(cg))) + .45*cg*cg)*if(Dz-.01, 1-exp(-.32/Dz), 1)/(phi(acos(A3))*.273853);
+blended = ((Dz+1.01)^10*blended_clear + (Dz+1.01)^-10*A5)/((Dz+1.01)^10 + (Dz+1.01)^-10);
+difference = skyL - blended;
+pos = if(difference, difference, 0);
+neg = if(difference, 0, -difference);
+"""
+
+
+def difference_sky(blended_scene, part):
+    """The daylit office under one part, "pos" or "neg", of the difference between its two skies, without the sun."""
+    folder = blended_scene.parent
+    (folder / "difference.cal").write_text((folder / "sky.cal").read_text() + DIFFERENCE)
+    sky = (folder / "sky.rad").read_text()
+    sky = sky[sky.index("void brightfunc"):].replace("skyL sky.cal", f"{part} difference.cal")
+    return sky + (folder / "scene.rad").read_text()
+
+
+THEATRE_STEP = 3  # every third point has a reference
+SHORT_FOCUS = 1e-6  # m behind the lamp
+
+
+def theatre_row(yardstick, folder, points_behind):
+    """Direct light alone: all surfaces black, so that nothing else is computed.
+
+    @param points_behind  the beams as given: their light falls off from a point a metre behind the lamp, the length of
+    the vector that aims it; else from the lamp itself"""
     import d_theatre
     d_theatre.gen(str(folder))
     text = (folder / "theatre.rad").read_text()
-    scene = folder / "theatre_black.rad"
+    name = "d" if points_behind else "d_point"
+    if not points_behind:
+        text = re.sub(r"(spotlight \w+\n0\n0\n7 \S+ \S+ \S+ \S+) (\S+) (\S+) (\S+)", lambda found: " ".join(
+            [found[1], *(f"{float(found[axis]) * SHORT_FOCUS:.12g}" for axis in (2, 3, 4))]), text)
+    scene = folder / f"{name}.rad"
     scene.write_text(re.sub(r"(plastic \w+\n0\n0\n5) [^\n]*", r"\1 0 0 0 0 0", text))
-    return _row("d", "theatre, soft shadows, 27,000 points", scene, d_theatre.grid(),
-                yardstick / "reference/d_theatre.csv", [(0.02, 1.0)], 1.5)
+    title = "theatre, soft shadows, 27,000 points" + ("" if points_behind else ", beams without focal length")
+    return _row(name, title, scene, d_theatre.grid(), REFERENCES / f"{name}_theatre.csv", [(0.02, 1.0)], 1.5)
 
 
 def ball_row(yardstick, folder):
@@ -114,13 +147,20 @@ BUILDERS = {
     "b": office_row,
     "c": lambda y, f: daylit_row(y, f, blended=False),
     "c_blended": lambda y, f: daylit_row(y, f, blended=True),
-    "d": theatre_row,
+    "d": lambda y, f: theatre_row(y, f, points_behind=True),
+    "d_point": lambda y, f: theatre_row(y, f, points_behind=False),
     "g": ball_row,
 }
 
 
-def build(name, yardstick, folder):
-    """@param yardstick  folder with scenes/ (generators) and reference/ (tables)"""
+def build(name, yardstick, folder, with_reference=True):
+    """@param yardstick  folder with scenes/ (generators) and reference/ (tables)
+    @param with_reference  False: the scene and points alone, before there is a reference"""
     if str(yardstick / "scenes") not in sys.path:
         sys.path.insert(0, str(yardstick / "scenes"))
-    return BUILDERS[name](yardstick, folder)
+    row = BUILDERS[name](yardstick, folder)
+    if name.startswith("d") and not with_reference:
+        row.compared = np.arange(0, len(row.points), THEATRE_STEP)
+    if with_reference and np.isnan(row.reference).any():
+        sys.exit(f"row {name} has no reference yet: reference.py {name} makes it")
+    return row
