@@ -7,7 +7,7 @@
 Scenes of tests/scenes/leak_scenes.py. Inside a sealed box every value must be 0 exactly. Elsewhere each setting is compared with
 plain path tracing: the difference beyond three standard errors of both, relative to the value and to the mean of the
 points. `--pictures` also renders each scene with each setting and plainly, as NAME.png to be looked at. Status 1 when
-light leaked or a difference exceeds `--largest` of the right value (points darker than a hundredth of the mean: of
+light leaked or a difference exceeds `--largest` of the right value (points darker than a twentieth of the mean: of
 that).
 """
 
@@ -24,7 +24,7 @@ from leak_scenes import SCENES
 from program import illuminance, lightwell, run
 from text import write_points
 
-DARKEST_SHARE = 0.01
+DARKEST_SHARE = 0.05  # a leak that no eye could tell from the light around it
 SIGMAS = 3.0
 PICTURE = ["--size", "320x240", "--png"]
 
