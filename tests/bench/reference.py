@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Makes a reference table from many independent runs; their spread gives the standard error of each point.
+
+    reference.py ROW --runs N --yardstick FOLDER --keep FOLDER
+
+    g                     Lightwell, plain path tracing, 131,072 samples a point and run
+    c_blended             Radiance without cache: mirrored suns, 900 divisions, any number of bounces
+    c                     the same plus the small difference that the other sky makes, found by itself
+    d, d_point            Radiance, every lamp in 64 parts, a random place in each part
+
+Each run is kept as a file in --keep, and a call goes on where the last one stopped. Writes references/ROW file with the
+columns x,y,z,dx,dy,dz,value,standard error; value without 179 lm/W.
+"""
+
+import argparse
+import os
+import pathlib
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
+from program import illuminance, run
+from rows import BUILDERS, REFERENCES, build, difference_sky
+from text import LUMENS_PER_WATT, write_points
+
+CHANNELS = np.array([0.265, 0.670, 0.065])
+BRUTE = "-u+ -aa 0 -as 0 -lr -24 -lw 1e-8 -ds 0 -dj 1 -dt 0 -dc 1 -dr 2 -st 0 -ss 1 -ab 12 -ad 900"
+PARTS = "-u+ -ab 0 -dt 0 -dc 1 -ds .004 -dj 1 -dr 0 -st 1"
+SAMPLES = 131072
+COMMANDS = {"g": f"lightwell illuminance --samples {SAMPLES}", "c": f"rtrace {BRUTE}", "c_blended": f"rtrace {BRUTE}",
+            "d": f"rtrace {PARTS}", "d_point": f"rtrace {PARTS}"}
+FILES = {"g": "g_line.csv", "c": "c_daylit.csv", "c_blended": "c_blended_daylit.csv", "d": "d_theatre.csv",
+         "d_point": "d_point_theatre.csv"}
+
+
+def rtrace(scene, points, options):
+    octree = scene.with_suffix(".oct")
+    run(["bash", "-c", f"oconv '{scene}' > '{octree}'"], folder=scene.parent).demand()
+    done = run(["rtrace", "-w", "-h", "-I", *options.split(), octree], input_file=points, folder=scene.parent).demand()
+    return np.array([line.split() for line in done.output.splitlines()], float) @ CHANNELS
+
+
+def one_run(row, points, number):
+    if row.name == "g":
+        words = ["--samples", SAMPLES, "--seed", number, "--threads", 1]
+        return np.array(illuminance(row.scene, points, row.scene.with_suffix(".csv"), words)[1]["illuminance_lx"]) / \
+            LUMENS_PER_WATT
+    time.sleep(1.1)  # rtrace -u+ takes its seed from the clock, in whole seconds
+    return rtrace(row.scene, points, COMMANDS[row.name].removeprefix("rtrace "))
+
+
+def difference(row, points):
+    """What the sky as given adds to the blended one, relative errors of a few per cent being small in it."""
+    found = []
+    for part in ("pos", "neg"):
+        scene = row.scene.with_name(f"difference_{part}.rad")
+        scene.write_text(difference_sky(row.scene, part))
+        found.append(rtrace(scene, points, BRUTE))
+    return found[0] - found[1]
+
+
+def kept_runs(row, points, keep, count):
+    keep.mkdir(parents=True, exist_ok=True)
+    for number in range(1, count + 1):
+        file = keep / f"run_{number}.txt"
+        if not file.exists():
+            np.savetxt(file, one_run(row, points, number), fmt="%.9g")
+            print(f"{row.name}: run {number} of {count}", file=sys.stderr)
+    return np.array([np.loadtxt(keep / f"run_{number}.txt") for number in range(1, count + 1)])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("row", choices=FILES)
+    parser.add_argument("--runs", type=int, default=16)
+    parser.add_argument("--yardstick", type=pathlib.Path, default=os.environ.get("LIGHTWELL_YARDSTICK"), required=False)
+    parser.add_argument("--keep", type=pathlib.Path, required=True)
+    asked = parser.parse_args()
+    with tempfile.TemporaryDirectory() as work:
+        folder = pathlib.Path(work)
+        base = build("c_blended" if asked.row == "c" else asked.row, pathlib.Path(asked.yardstick).resolve(), folder,
+                     with_reference=False)
+        places = [base.points[index] for index in base.compared]
+        write_points(folder / "grid.pts", places)
+        runs = kept_runs(base, folder / "grid.pts", asked.keep, asked.runs)
+        values = runs.mean(axis=0)
+        error = runs.std(axis=0, ddof=1) / np.sqrt(len(runs))
+        if asked.row == "c":
+            values = values + difference(base, folder / "grid.pts")
+    noise = 100 * np.sqrt(np.mean((error / np.maximum(values, 0.01 * values.mean())) ** 2))
+    header = (f"{asked.row}: {COMMANDS[asked.row]}, {len(runs)} independent runs, noise of a point {noise:.2f} %\n"
+              "x,y,z,dx,dy,dz,value,standard_error")
+    REFERENCES.mkdir(exist_ok=True)
+    np.savetxt(REFERENCES / FILES[asked.row], np.column_stack([np.array(places), values, error]), delimiter=",",
+               fmt="%.7g", header=header)
+    print(header)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,108 @@
+#!/usr/bin/python3
+"""No light where none can be, and the right light beside thin things.
+
+    leaks.py [SCENE ...] [--settings "--quality low;--quality medium;--quality high"] [--plain ""] [--samples 16384]
+             [--largest 0.1] [--pictures FOLDER] [--json FILE]
+
+Scenes of tests/scenes/leak_scenes.py. Inside a sealed box every value must be 0 exactly. Elsewhere each setting is compared with
+plain path tracing: the difference beyond three standard errors of both, relative to the value and to the mean of the
+points. `--pictures` also renders each scene with each setting and plainly, as NAME.png to be looked at. Status 1 when
+light leaked or a difference exceeds `--largest` of the right value (points darker than a twentieth of the mean: of
+that).
+"""
+
+import argparse
+import json
+import pathlib
+import sys
+import tempfile
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
+from leak_scenes import SCENES
+from program import illuminance, lightwell, run
+from text import write_points
+
+DARKEST_SHARE = 0.05  # a leak that no eye could tell from the light around it
+SIGMAS = 3.0
+PICTURE = ["--size", "320x240", "--png"]
+
+
+def compare(found, right):
+    """@return  measures of one setting, differences reduced by three standard errors of both"""
+    value, error = (np.array(found[name]) for name in ("illuminance_lx", "error_lx"))
+    truth, truth_error = (np.array(right[name]) for name in ("illuminance_lx", "error_lx"))
+    scale = np.maximum(truth, DARKEST_SHARE * truth.mean())
+    difference = value - truth
+    beyond = np.maximum(np.abs(difference) - SIGMAS * np.hypot(error, truth_error), 0)
+    worst = int(np.argmax(beyond / scale))
+    return {"rms": float(np.sqrt(np.mean((difference / scale) ** 2))), "mbe": float(np.mean(difference / scale)),
+            "largest_beyond_noise": float((beyond / scale)[worst]), "worst_point": worst,
+            "worst_found_lx": float(value[worst]), "worst_right_lx": float(truth[worst]),
+            "brightest_beyond_of_mean": float(beyond.max() / truth.mean()), "truth_noise": float(np.mean(truth_error / scale))}
+
+
+def pictures(name, scene, view, settings, plain, folder):
+    for label, options in [("plain", plain + ["--unbiased"])] + [(f"setting{i}", s) for i, s in enumerate(settings)]:
+        output = folder / f"{name}_{label}.exr"
+        run([lightwell(), "render", scene, "--view", view, "-o", output, *PICTURE, *options]).demand()
+
+
+def check(name, asked, folder):
+    text, points, view = SCENES[name]()
+    scene, points_file = folder / f"{name}.rad", folder / f"{name}.pts"
+    scene.write_text(text)
+    write_points(points_file, points)
+    if asked.pictures:
+        pictures(name, scene, view, asked.settings, asked.plain, asked.pictures)
+    right = illuminance(scene, points_file, folder / "right.csv", ["--samples", asked.samples, "--seed", 7, *asked.plain])[1]
+    if name == "sealed":
+        right = {key: [0.0] * len(points) for key in right}
+    for options in asked.settings:
+        done, found = illuminance(scene, points_file, folder / "found.csv", [*options, "--threads", 1])
+        row = {"scene": name, "options": options, "cpu_s": done.cpu_s}
+        if name == "sealed":
+            brightest = max(found["illuminance_lx"])
+            row |= {"leak_lx": brightest, "failed": brightest != 0}
+        else:
+            row |= compare(found, right)
+            row["failed"] = row["largest_beyond_noise"] > asked.largest
+        yield row
+
+
+def line_of(row):
+    words = " ".join(row["options"])
+    if row["scene"] == "sealed":
+        return f"| sealed | {words} | brightest {row['leak_lx']:g} lx | | | | {row['cpu_s']:.2f} |"
+    return (f"| {row['scene']} | {words} | RMS {100 * row['rms']:.2f} % | {100 * row['mbe']:+.2f} % "
+            f"| {100 * row['largest_beyond_noise']:.1f} % ({row['worst_found_lx']:.3g} for {row['worst_right_lx']:.3g} lx) "
+            f"| {100 * row['brightest_beyond_of_mean']:.2f} % | {row['cpu_s']:.2f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", metavar="SCENE")
+    parser.add_argument("--settings", default="--samples 128;--samples 512;--samples 2048")
+    parser.add_argument("--plain", default="", help="options that make a grid plain path tracing")
+    parser.add_argument("--samples", type=int, default=16384)
+    parser.add_argument("--largest", type=float, default=0.1)
+    parser.add_argument("--pictures", type=pathlib.Path)
+    parser.add_argument("--json", type=pathlib.Path)
+    asked = parser.parse_args()
+    asked.settings = [words.split() for words in asked.settings.split(";")]
+    asked.plain = asked.plain.split()
+    rows = []
+    print("| scene | setting | error | mean error | worst beyond noise | of the mean | CPU s |\n|---|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        for name in asked.scenes or SCENES:
+            for row in check(name, asked, pathlib.Path(folder)):
+                print(line_of(row), flush=True)
+                rows.append(row)
+    if asked.json:
+        asked.json.write_text(json.dumps(rows, indent=1) + "\n")
+    return 1 if any(row["failed"] for row in rows) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
