@@ -15,7 +15,7 @@ constexpr double least_multiple = 0.5, most_multiple = 5;
 /// ... and of the larger of the two, across.
 constexpr double most_stretch = 3;
 /// ... and in footprints.
-constexpr double least_footprints = 2.5;
+constexpr double least_footprints = 6;
 /// Predicted change within the reach, relative.
 constexpr double most_change = 1;
 /// Keep random numbers of rays and of shadow rays apart.
@@ -81,7 +81,7 @@ double lamp_share_at(const SurfacePlace& place, const HemisphereRays& rays, std:
 bool AmbientCache::covers(const SurfacePlace& place) const noexcept
 {
     bool covered = false;
-    grid_.near(place.position, [&](std::uint32_t i) {
+    tree_.near(place.position, [&](std::uint32_t i) {
         covered = covered || site_distance(sites_[i], place.position, place.normal) < covered_share;
     });
     return covered;
@@ -143,7 +143,7 @@ void AmbientCache::clamp_to_neighbours(AmbientRecord& record)
         site.reach_m[0] *= ratio;
         site.reach_m[1] *= ratio;
     };
-    grid_.near(record.site.position, [&](std::uint32_t i) {
+    tree_.near(record.site.position, [&](std::uint32_t i) {
         const double apart = length(sites_[i].position - record.site.position);
         if (sites_[i].harmonic_m + apart < record.site.harmonic_m)
             shrink(record.site, sites_[i].harmonic_m + apart);
@@ -152,13 +152,12 @@ void AmbientCache::clamp_to_neighbours(AmbientRecord& record)
 
 void AmbientCache::insert(std::vector<AmbientRecord>&& records)
 {
-    const std::size_t before = records_.size();
     for (AmbientRecord& record : records) {
         clamp_to_neighbours(record);
         sites_.push_back(record.site);
         records_.push_back(std::move(record));
     }
-    grid_.add(sites_, before);
+    tree_.build(sites_);
 }
 
 void AmbientCache::add(std::vector<AmbientRecord> records)
@@ -187,7 +186,7 @@ bool AmbientCache::irradiance(const Point& at, const Direction& normal, CachedAm
     double total = 0;
     Spectrum sum;
     found.deviation.fill(0);
-    grid_.near(at, [&](std::uint32_t i) {
+    tree_.near(at, [&](std::uint32_t i) {
         const double distance = site_distance(sites_[i], at, normal);
         if (!(distance < 1))
             return;

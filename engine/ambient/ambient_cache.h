@@ -45,7 +45,7 @@ struct CachedAmbient {
 ///         Schwarzhaupt et al. 2012 (reach)
 class AmbientCache {
 public:
-    AmbientCache(const DeepField& deep, const Point& centre) : deep_(deep), grid_(centre) {}
+    explicit AmbientCache(const DeepField& deep) : deep_(deep) {}
 
     /// One generation. @return records added
     std::size_t grow(const std::vector<AmbientCandidate>& candidates, const HemisphereRays& rays, double size_m,
@@ -67,7 +67,7 @@ private:
     const DeepField& deep_;
     std::vector<AmbientRecord> records_;
     std::vector<AmbientSite> sites_; ///< of the records, close together for the search
-    SiteGrid grid_;
+    SiteTree tree_;
 };
 
 } // namespace lightwell

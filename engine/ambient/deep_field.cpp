@@ -90,7 +90,7 @@ std::uint64_t place_bits(const SurfacePlace& place) noexcept
 bool DeepField::covers(const Point& at, const Direction& normal) const noexcept
 {
     bool covered = false;
-    grid_.near(at, [&](std::uint32_t i) { covered = covered || site_distance(sites_[i], at, normal) < covered_share; });
+    tree_.near(at, [&](std::uint32_t i) { covered = covered || site_distance(sites_[i], at, normal) < covered_share; });
     return covered;
 }
 
@@ -120,7 +120,7 @@ void DeepField::place(const std::vector<SurfacePlace>& candidates, const Hemisph
             sites_.push_back(site);
             places_.push_back(candidates[first + i]);
         }
-        grid_.add(sites_, before);
+        tree_.build(sites_);
     }
 }
 
@@ -128,7 +128,7 @@ std::size_t DeepField::weights(const Point& at, const Direction& normal, Weight*
 {
     Vec3 ways[most_weights];
     std::size_t count = 0;
-    grid_.near(at, [&](std::uint32_t i) {
+    tree_.near(at, [&](std::uint32_t i) {
         const double distance = site_distance(sites_[i], at, normal);
         if (distance < 1 && count < most_weights) {
             ways[count] = sites_[i].position - at;

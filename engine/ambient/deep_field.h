@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/ambient/fixed_point.h"
-#include "engine/ambient/site_grid.h"
+#include "engine/ambient/site_tree.h"
 #include "engine/base/spectrum.h"
 #include "engine/sampling/replicates.h"
 #include "engine/transport/hemisphere_rays.h"
@@ -29,8 +29,6 @@ struct DeepSettings {
 /// whose cache of each further bounce is coarser: here one level for all of them
 class DeepField {
 public:
-    explicit DeepField(const Point& centre = {}) : grid_(centre) {}
-
     /// Adds a site for each candidate that no earlier one covers, in order.
     /// @param size_m  of the scene: the reach where nothing is near
     void place(const std::vector<SurfacePlace>& candidates, const HemisphereRays& rays, double size_m,
@@ -80,7 +78,7 @@ private:
 
     std::vector<AmbientSite> sites_;
     std::vector<SurfacePlace> places_;
-    SiteGrid grid_;
+    SiteTree tree_;
     std::array<std::vector<Spectrum>, replicates> ambient_;
     std::vector<Spectrum> direct_;
     std::vector<double> tested_share_;

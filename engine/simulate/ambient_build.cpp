@@ -38,7 +38,7 @@ AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std:
 }
 
 AmbientBuild::AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques)
-    : parts_(parts), effort_(effort), deep_(parts.box.centre()), cache_(deep_, parts.box.centre()),
+    : parts_(parts), effort_(effort), cache_(deep_),
       tracer_(parts.scene, parts.rays, parts.sources,
               {techniques.cache ? &cache_ : nullptr, techniques.deep_field ? &deep_ : nullptr})
 {

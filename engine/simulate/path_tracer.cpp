@@ -76,8 +76,7 @@ struct PathTracer::AmbientHere {
 PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
                        const AmbientLight& ambient)
     : scene_(scene), rays_(rays), sources_(sources), ambient_(ambient), direct_(sources, rays),
-      quick_direct_(sources, rays, quick_settings()),
-      white_(Plastic{Spectrum::grey(1), 0, 0})
+      quick_direct_(sources, rays, quick_settings()), white_(Plastic{Spectrum::grey(1), 0, 0})
 {
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;

@@ -60,7 +60,7 @@ private:
     const SourceList& sources_;
     AmbientLight ambient_;
     DirectLight direct_;
-    DirectLight quick_direct_; ///< behind a scattering
+    DirectLight quick_direct_;                ///< behind a scattering
     std::vector<const Material*> materials_;  ///< by modifier
     std::vector<const Material*> alternates_; ///< by modifier: what eyes see of an Illum; null: nothing
     Material white_;

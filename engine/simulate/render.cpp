@@ -14,7 +14,7 @@ namespace {
 constexpr int pilot_columns = 24, pilot_rows = 16, check_columns = 8, check_rows = 6;
 constexpr int check_paths = 16 * replicates;
 /// Records of ambient light are looked for at every so many pixels, then between them.
-constexpr int first_stride = 32, last_stride = 2;
+constexpr int first_stride = 32, last_stride = 4;
 
 struct PixelResult {
     RunningStatistics channel[3], luminance, illuminance;
