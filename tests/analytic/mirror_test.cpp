@@ -102,9 +102,9 @@ TEST(VirtualSource, TheOutlineOfAFiniteMirrorCutsTheImageOfAnAreaLight)
                            add_mirror_material(scene, 0.85), "mirror");
     const Simulation with(scene, {2}), without(scene, {0});
     for (const auto& [sensor, value] : expected) {
-        const Found found = illuminance_at(with, sensor, 1 << 16);
+        const Found found = illuminance_at(with, sensor, 1 << 16, 1, true);
         expect_agrees(found, value, 0.003);
-        EXPECT_LT(found.error, illuminance_at(without, sensor, 1 << 16).error);
+        EXPECT_LT(found.error, illuminance_at(without, sensor, 1 << 16, 1, true).error);
     }
 }
 
@@ -158,12 +158,15 @@ TEST(VirtualSource, EnergyIsNeitherDoubledNorLostAtAnyDepth)
 {
     const Sensor sensors[] = {{{0.8, 0.7, 0.01}, {0, 0, 1}}, {{2, 1.5, 1}, normalized({-1, -0.5, 0.2})}};
     for (const Sensor& sensor : sensors) {
-        const Found plain = pooled_illuminance_at(Simulation(corner_of_mirrors(), {0}), sensor, 1 << 17);
+        const Found plain = pooled_illuminance_at(Simulation(corner_of_mirrors(), {0}), sensor, 1 << 17, true);
         for (const int depth : {1, 2, 3}) {
             SCOPED_TRACE(depth);
-            const Found found = pooled_illuminance_at(Simulation(corner_of_mirrors(), {depth}), sensor, 1 << 15);
-            expect_agrees({found.value, std::hypot(found.error, plain.error)}, plain.value, 0.06, 1e-9,
-                          pooled_interval);
+            const Simulation simulation(corner_of_mirrors(), {depth});
+            for (const bool unbiased : {true, false}) { // with and without cached ambient light
+                const Found found = pooled_illuminance_at(simulation, sensor, 1 << 15, unbiased);
+                expect_agrees({found.value, std::hypot(found.error, plain.error)}, plain.value, 0.06, 1e-9,
+                              pooled_interval);
+            }
         }
     }
 }
