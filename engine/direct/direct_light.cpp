@@ -34,6 +34,24 @@ double shadow_ray_weight(double shadow_density, double scattered_density) noexce
     return shadow_density / (shadow_density + scattered_density);
 }
 
+void add_light(Gathered& sum, const Vertex& vertex, const Brought& brought, const FoundToo& too) noexcept
+{
+    const double scattered =
+        too.by_scattering ? vertex.bsdf.density_per_sr(vertex.to_viewer, brought.local, too.lobes) : 0;
+    const double weight = shadow_ray_weight(brought.density_per_sr, scattered);
+    const Spectrum light = brought.radiance * (std::fabs(brought.local.z) / brought.density_per_sr);
+    if (too.lobes == LobeSet::all) {
+        sum.radiance += light * brought.value_per_sr * weight;
+        if (brought.local.z > 0)
+            sum.irradiance += light * weight;
+        return;
+    }
+    const Spectrum found_too = vertex.bsdf.value_per_sr(vertex.to_viewer, brought.local, too.lobes);
+    sum.radiance += light * (brought.value_per_sr - found_too * (1 - weight));
+    if (brought.local.z > 0)
+        sum.irradiance += light;
+}
+
 /// Gathering at one vertex.
 struct DirectLight::Task {
     const Vertex& vertex;
@@ -57,20 +75,8 @@ void DirectLight::add(const Task& task, const SourceSample& sample, double densi
     const Spectrum seen = rays_.transmittance(shadow_ray(vertex.hit, sample));
     if (seen.is_black())
         return;
-    const LobeSet set = task.wish.scattered;
-    const double scattered = found_by_scattering ? vertex.bsdf.density_per_sr(vertex.to_viewer, local, set) : 0;
-    const double weight = shadow_ray_weight(density_per_sr, scattered);
-    const Spectrum light = sample.radiance * seen * (std::fabs(local.z) / density_per_sr);
-    if (set == LobeSet::all) {
-        task.sum.radiance += light * value * weight;
-        if (local.z > 0)
-            task.sum.irradiance += light * weight;
-        return;
-    }
-    const Spectrum found_too = vertex.bsdf.value_per_sr(vertex.to_viewer, local, set);
-    task.sum.radiance += light * (value - found_too * (1 - weight));
-    if (local.z > 0)
-        task.sum.irradiance += light;
+    add_light(task.sum, vertex, {local, value, sample.radiance * seen, density_per_sr},
+              {task.wish.scattered, found_by_scattering});
 }
 
 bool DirectLight::few_lamps() const noexcept

@@ -37,6 +37,20 @@ struct Gathered {
 /// Share of a source's light that shadow rays answer for; scattered rays that meet the source answer for the rest.
 /// Source  Veach 1997, balance heuristic with cutoff
 double shadow_ray_weight(double shadow_density, double scattered_density) noexcept;
+/// What a shadow ray has brought to a vertex.
+struct Brought {
+    Direction local;       ///< to the light, in the vertex's frame
+    Spectrum value_per_sr; ///< of the BSDF, all lobes
+    Spectrum radiance;     ///< that arrives
+    double density_per_sr; ///< with which such rays are aimed, times their number
+};
+/// Which scattered rays find the same light.
+struct FoundToo {
+    LobeSet lobes = LobeSet::all;
+    bool by_scattering = true; ///< else none does
+};
+/// Adds the light with its weight against scattered rays.
+void add_light(Gathered& sum, const Vertex& vertex, const Brought& brought, const FoundToo& too) noexcept;
 /// The ray that tests whether a vertex sees a sample of a source.
 Ray shadow_ray(const Hit& from, const SourceSample& sample) noexcept;
 

@@ -39,7 +39,7 @@ AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std:
 
 AmbientBuild::AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques)
     : parts_(parts), effort_(effort), cache_(deep_),
-      tracer_(parts.scene, parts.rays, parts.sources,
+      tracer_(parts.scene, parts.rays, parts.sources, parts.virtual_sources,
               {techniques.cache ? &cache_ : nullptr, techniques.deep_field ? &deep_ : nullptr})
 {
 }

@@ -14,11 +14,14 @@ struct SimulationParts {
     Scene scene;
     RayQueries rays;
     SourceList sources;
+    VirtualSources virtual_sources;
     PathTracer tracer; ///< plain
     Box box;
 
-    explicit SimulationParts(Scene&& s)
-        : scene(std::move(s)), rays(scene), sources(scene, rays), tracer(scene, rays, sources), box(bounds(scene))
+    SimulationParts(Scene&& s, const Preparation& preparation)
+        : scene(std::move(s)), rays(scene), sources(scene, rays),
+          virtual_sources(scene, sources, {preparation.virtual_depth}), tracer(scene, rays, sources, virtual_sources),
+          box(bounds(scene))
     {
     }
 };

@@ -43,6 +43,9 @@ struct PathTracer::Walk {
     double scattered_density = 0; ///< of the last scattering
     SourceShares shares;          ///< of the shadow rays there
     SourceShares here;            ///< of the shadow rays at this vertex; they become `shares` when the path bends
+    MirrorShares mirror_shares, mirror_here; ///< the same of those to virtual sources
+    MirrorChain chain;                       ///< mirrors since the last bend by a diffuse or glossy lobe
+    double way_m = 0;                        ///< from there
     int scatterings = 0;
     bool straight_from_receiver = false; ///< of an arrival, before anything bends it
     bool met_lamp = false;               ///< of an arrival: straight away
@@ -58,7 +61,7 @@ struct PathTracer::Walk {
     /// Weight of a source met by a scattered ray against shadow rays of this density.
     double weight(double shadow_density) const
     {
-        return sources == Sources::in_full ? 1 : 1 - shadow_ray_weight(shadow_density, scattered_density);
+        return shadow_density > 0 ? 1 - shadow_ray_weight(shadow_density, scattered_density) : 1;
     }
 };
 
@@ -74,9 +77,10 @@ struct PathTracer::AmbientHere {
 };
 
 PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
-                       const AmbientLight& ambient)
-    : scene_(scene), rays_(rays), sources_(sources), ambient_(ambient), direct_(sources, rays),
-      quick_direct_(sources, rays, quick_settings()), white_(Plastic{Spectrum::grey(1), 0, 0})
+                       const VirtualSources& virtual_sources, const AmbientLight& ambient)
+    : scene_(scene), rays_(rays), sources_(sources), virtual_sources_(virtual_sources), ambient_(ambient),
+      direct_(sources, rays), mirrored_(virtual_sources, sources, rays), quick_direct_(sources, rays, quick_settings()),
+      white_(Plastic{Spectrum::grey(1), 0, 0})
 {
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;
@@ -90,10 +94,10 @@ PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceL
 void PathTracer::meet_distant(Walk& walk) const
 {
     const Direction direction = walk.ray.direction;
-    const bool in_full = walk.sources == Walk::Sources::in_full;
     if (!sources_.sky().empty()) {
         const Spectrum radiance = sources_.sky().radiance(direction);
         if (!radiance.is_black()) {
+            const bool in_full = walk.sources == Walk::Sources::in_full || walk.chain.mirrored();
             const double weight = walk.weight(in_full ? 0 : direct_.sky_density(walk.shares, direction));
             if (walk.straight_from_receiver) // an arrival tells what its ray sees apart from what it counts for
                 walk.add(radiance, weight);
@@ -101,29 +105,51 @@ void PathTracer::meet_distant(Walk& walk) const
                 walk.add(radiance * weight);
         }
     }
-    if (walk.sources == Walk::Sources::answered)
-        return;
-    for (const SunSource& sun : sources_.suns())
-        if (const double density = sun.density_per_sr(direction); density > 0)
+    for (std::size_t i = 0; i < sources_.suns().size(); ++i) {
+        const SunSource& sun = sources_.suns()[i];
+        const double density = sun.density_per_sr(direction);
+        const int index = static_cast<int>(i);
+        if (!(density > 0) || answered(walk, true, index))
+            continue;
+        if (walk.sources == Walk::Sources::in_full)
+            walk.add(sun.radiance);
+        else if (walk.chain.mirrored())
+            walk.add(sun.radiance *
+                     walk.weight(mirrored_.sun_density(walk.mirror_shares, walk.chain, index, direction)));
+        else
             walk.add(sun.radiance * walk.weight(density));
+    }
+}
+
+/// Whether the light of a lamp or a sun that a ray has met has come by shadow rays alone. In a mirror that is so for
+/// those that have an image there; the others count in full.
+bool PathTracer::answered(const Walk& walk, bool is_sun, int source) const
+{
+    return walk.sources == Walk::Sources::answered &&
+           (!walk.chain.mirrored() || mirrored_.answered(walk.chain, is_sun, source));
 }
 
 void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& material) const
 {
     const Direction direction = walk.ray.direction;
-    const double distance_m = walk.sources == Walk::Sources::in_full ? hit.t : length(hit.position - walk.shares.from);
     const Spectrum radiance =
-        emitted_towards(material, -dot(hit.normal, direction), -direction) * beam_share(material, distance_m);
+        emitted_towards(material, -dot(hit.normal, direction), -direction) * beam_share(material, walk.way_m);
     if (radiance.is_black())
         return;
     const int lamp = sources_.lamp_at(hit);
     double shadow_density = 0;
     if (lamp >= 0 && walk.sources != Walk::Sources::in_full) {
-        if (walk.sources == Walk::Sources::answered || std::holds_alternative<Illum>(material)) {
+        const bool has_image = walk.chain.mirrored() && mirrored_.answered(walk.chain, false, lamp);
+        const bool by_shadow_rays_alone =
+            std::holds_alternative<Illum>(material) && (has_image || !walk.chain.mirrored());
+        if (answered(walk, false, lamp) || by_shadow_rays_alone) {
             walk.met_lamp = walk.straight_from_receiver;
-            return; // its light has come by shadow rays alone
+            return;
         }
-        shadow_density = direct_.lamp_density(walk.shares, lamp, direction, hit);
+        if (has_image)
+            shadow_density = mirrored_.lamp_density(walk.mirror_shares, walk.chain, lamp, direction, hit);
+        else if (!walk.chain.mirrored())
+            shadow_density = direct_.lamp_density(walk.shares, lamp, direction, hit);
     }
     walk.add(radiance * walk.weight(shadow_density));
 }
@@ -181,18 +207,25 @@ void PathTracer::add_direct(Walk& walk, const Gathered& direct, double share) co
         walk.irradiance += walk.arriving_throughput * direct.radiance * share;
 }
 
+void PathTracer::gather_plainly(Walk& walk, const Vertex& vertex, const GatherWish& wish, PathRandom& random) const
+{
+    add_direct(walk, direct_.gather(vertex, wish, random, walk.here), 1);
+    add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1);
+}
+
 void PathTracer::gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here,
                                        PathRandom& random) const
 {
     if (!walk.bent) {
-        add_direct(walk, direct_.gather_tested(vertex, {true, true, false}, {}, random, walk.here), 1);
+        const GatherWish wish{first_rays, {true, true, false}, LobeSet::specular};
+        add_direct(walk, direct_.gather_tested(vertex, wish.kinds, {}, random, walk.here), 1);
+        add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1);
         return;
     }
     const Lobes& lobes = vertex.bsdf.lobes();
     const bool field_stands_in = !lobes.glossy && lobes.diffuse_transmittance.is_black() && !sources_.lamps().empty();
     if (!field_stands_in || !sources_.suns().empty()) {
-        const GatherWish wish{later_rays, {!field_stands_in, true, false}, LobeSet::specular};
-        add_direct(walk, direct_.gather(vertex, wish, random, walk.here), 1);
+        gather_plainly(walk, vertex, {later_rays, {!field_stands_in, true, false}, LobeSet::specular}, random);
     }
     if (!field_stands_in)
         return;
@@ -209,6 +242,8 @@ void PathTracer::gather_beside_ambient(Walk& walk, const Vertex& vertex, const A
     if (random.one() < tested_share) {
         const Gathered tested = quick_direct_.gather_tested(vertex, {true, false, false}, {}, random, walk.here);
         add_direct(walk, tested, 1 / tested_share);
+        const GatherWish wish{later_rays, {true, false, false}, LobeSet::specular};
+        add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1 / tested_share);
         walk.add(usual * (-1 / tested_share));
     }
 }
@@ -244,10 +279,19 @@ bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRand
     walk.ray = {vertex.hit.leave(world), normalized(world), infinity};
     if (!scattered->straight) { // a straight passage leaves the weights of the last scattering as they are
         walk.straight_from_receiver = false;
-        walk.shares = walk.here;
-        walk.sources = scattered->delta ? Walk::Sources::in_full : Walk::Sources::weighted;
-        walk.scattered_density = scattered->density_per_sr;
-        walk.bent = walk.bent || !scattered->delta;
+        if (scattered->delta) {
+            walk.chain.reflect(virtual_sources_.mirrors().mirror_at(vertex.hit));
+            if (!walk.chain.mirrored())
+                walk.sources = Walk::Sources::in_full;
+        } else {
+            walk.shares = walk.here;
+            walk.mirror_shares = walk.mirror_here;
+            walk.sources = Walk::Sources::weighted;
+            walk.scattered_density = scattered->density_per_sr;
+            walk.chain.begin();
+            walk.way_m = 0;
+            walk.bent = true;
+        }
     }
     ++walk.scatterings;
     walk.at_first = false;
@@ -259,7 +303,7 @@ const Material* PathTracer::seen_material(const Walk& walk, const Hit& hit) cons
     const auto modifier = static_cast<std::size_t>(hit.modifier);
     const Material* material = materials_[modifier];
     const bool from_behind = dot(hit.normal, walk.ray.direction) > 0;
-    if (std::holds_alternative<Illum>(*material) && (walk.sources == Walk::Sources::in_full || from_behind))
+    if (std::holds_alternative<Illum>(*material) && (!walk.bent || from_behind))
         return alternates_[modifier];
     return material;
 }
@@ -273,6 +317,7 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     }
     if (!walk.first)
         walk.first = hit;
+    walk.way_m += hit.t;
     const Material* material = seen_material(walk, hit);
     if (material == nullptr) { // invisible: the ray goes on as if it had met nothing
         walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity};
@@ -299,7 +344,7 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
         return (lobes.glossy || lobes.delta) && scatter(walk, vertex, LobeSet::specular, random);
     }
     if (is_diffuse(lobes) || lobes.glossy)
-        add_direct(walk, direct_.gather(vertex, {walk.at_first ? first_rays : later_rays}, random, walk.here), 1);
+        gather_plainly(walk, vertex, {walk.at_first ? first_rays : later_rays}, random);
     return scatter(walk, vertex, LobeSet::all, random);
 }
 
@@ -351,7 +396,7 @@ Spectrum PathTracer::irradiance(const SurfacePlace& receiver, int replicate, Pat
         gather_beside_ambient(walk, vertex, here, random);
         return walk.irradiance;
     }
-    add_direct(walk, direct_.gather(vertex, {first_rays}, random, walk.here), 1);
+    gather_plainly(walk, vertex, {first_rays}, random);
     if (scatter(walk, vertex, LobeSet::all, random))
         run(walk, random);
     return walk.irradiance;
@@ -372,6 +417,7 @@ Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direct
     walk.at_first = false;
     walk.bent = true;
     walk.sources = Walk::Sources::answered;
+    walk.chain.begin();
     walk.shares = walk.here;
     walk.scattered_density = cosine_hemisphere_density_per_sr(dot(direction, receiver.normal));
     walk.scatterings = 1;
@@ -407,8 +453,12 @@ double PathTracer::distance_m(const SurfacePlace& receiver, const Direction& dir
 DirectIrradiance PathTracer::direct(const SurfacePlace& receiver, bool with_suns, PathRandom& random) const
 {
     SourceShares shares;
-    const Gathered found = direct_.gather_tested(white_vertex(receiver), {true, with_suns, false}, {}, random, shares);
-    return {found.irradiance, found.lamp_share};
+    MirrorShares mirror_shares;
+    const Vertex vertex = white_vertex(receiver);
+    const GatherWish wish{first_rays, {true, with_suns, false}, LobeSet::specular};
+    const Gathered found = direct_.gather_tested(vertex, wish.kinds, {}, random, shares);
+    const Gathered mirrored = mirrored_.gather(vertex, wish, random, mirror_shares);
+    return {found.irradiance + mirrored.irradiance, found.lamp_share};
 }
 
 void PathTracer::receivers_along(const Ray& ray, int scatterings, PathRandom& random,

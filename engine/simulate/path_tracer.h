@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/direct/direct_light.h"
+#include "engine/direct/mirrored_light.h"
 #include "engine/simulate/ambient_light.h"
 
 namespace lightwell {
@@ -21,7 +21,8 @@ struct PathSample {
 /// Source  Ward 1994, Eq. (1); Kajiya 1986
 class PathTracer : public HemisphereRays {
 public:
-    PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources, const AmbientLight& ambient = {});
+    PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
+               const VirtualSources& virtual_sources, const AmbientLight& ambient = {});
 
     /// @param replicate  of the ambient light
     PathSample sample(const Ray& ray, int replicate, PathRandom& random) const;
@@ -44,6 +45,8 @@ private:
     struct AmbientHere;
     bool find_ambient(const Walk& walk, const Vertex& vertex, AmbientHere& here) const;
     void add_ambient(Walk& walk, const AmbientHere& here) const;
+    void gather_plainly(Walk& walk, const Vertex& vertex, const GatherWish& wish, PathRandom& random) const;
+    bool answered(const Walk& walk, bool is_sun, int source) const;
     void gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here, PathRandom& random) const;
     void add_direct(Walk& walk, const Gathered& direct, double share) const;
     bool scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const;
@@ -58,8 +61,10 @@ private:
     const Scene& scene_;
     const RayQueries& rays_;
     const SourceList& sources_;
+    const VirtualSources& virtual_sources_;
     AmbientLight ambient_;
     DirectLight direct_;
+    MirroredLight mirrored_;
     DirectLight quick_direct_;                ///< behind a scattering
     std::vector<const Material*> materials_;  ///< by modifier
     std::vector<const Material*> alternates_; ///< by modifier: what eyes see of an Illum; null: nothing

@@ -74,10 +74,10 @@ BiasEstimate bias_of(const std::vector<Checked>& points)
     return bias;
 }
 
-Simulation::Simulation(Scene scene)
+Simulation::Simulation(Scene scene, const Preparation& preparation)
 {
     validate(scene);
-    parts_ = std::make_unique<SimulationParts>(std::move(scene));
+    parts_ = std::make_unique<SimulationParts>(std::move(scene), preparation);
 }
 
 Simulation::~Simulation() = default;

@@ -90,6 +90,11 @@ struct GridResult {
     double seconds = 0;
 };
 
+/// What is made ready with a scene, for all its pictures and grids.
+struct Preparation {
+    int virtual_depth = 2; ///< mirrors one after the other that virtual sources stand behind; 0: none
+};
+
 struct SimulationParts;
 
 /// A scene made ready for light: ray queries, list of sources. Rendering does not change it.
@@ -97,8 +102,8 @@ struct SimulationParts;
 /// standard error stated with each value is that of the mean of eight independent replicates.
 class Simulation {
 public:
-    /// @throws InputError from validate(scene)
-    explicit Simulation(Scene scene);
+    /// @throws InputError from validate(scene), and for a preparation out of range
+    explicit Simulation(Scene scene, const Preparation& preparation = {});
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;

@@ -61,6 +61,7 @@ public:
     double density_per_sr(const Point& from, const Direction& direction, const Hit& hit) const noexcept;
     const Material& material() const noexcept { return *material_; }
     const Point& centre() const noexcept { return centre_; }
+    double radius_m() const noexcept { return radius_m_; } ///< of a ball about the centre that holds the source
     /// What a tree over lamps needs to know: where it is and where it sends light.
     struct Reach {
         Box box;

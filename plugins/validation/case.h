@@ -51,6 +51,7 @@ struct Check {
 struct Setup {
     std::function<Scene(const Perturbation&)> scene;
     std::vector<Check> checks;
+    Preparation preparation = {};
 };
 
 /// Cases without a scene count something: they give their rows themselves.

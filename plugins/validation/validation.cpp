@@ -59,7 +59,7 @@ std::vector<ValidationRow> run(const Task& task, const ValidationOptions& option
     if (task.setup == nullptr)
         return {task.from->count(options)};
     std::vector<ValidationRow> rows;
-    const Simulation simulation(task.setup->scene(perturbation_of(options.perturb)));
+    const Simulation simulation(task.setup->scene(perturbation_of(options.perturb)), task.setup->preparation);
     for (const Check& check : task.setup->checks) {
         if (progress.stop())
             throw Cancelled{};

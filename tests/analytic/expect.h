@@ -11,11 +11,13 @@ struct Found {
     double value, error;
 };
 
-inline Found illuminance_at(const Simulation& simulation, const Sensor& sensor, int samples, std::uint64_t seed = 1)
+inline Found illuminance_at(const Simulation& simulation, const Sensor& sensor, int samples, std::uint64_t seed = 1,
+                            bool unbiased = false)
 {
     GridSettings settings;
     settings.samples = samples;
     settings.seed = seed;
+    settings.unbiased = unbiased;
     SensorGrid grid;
     grid.sensors = {sensor};
     const GridResult result = simulation.illuminance(grid, settings);
@@ -40,11 +42,12 @@ inline void expect_agrees(const Found& found, double expected, double bias, doub
 inline constexpr std::uint64_t pooled_runs = 4;
 inline constexpr double pooled_interval = 5.9;
 
-inline Found pooled_illuminance_at(const Simulation& simulation, const Sensor& sensor, int samples_per_run)
+inline Found pooled_illuminance_at(const Simulation& simulation, const Sensor& sensor, int samples_per_run,
+                                   bool unbiased = false)
 {
     double sum = 0, squares = 0;
     for (std::uint64_t seed = 1; seed <= pooled_runs; ++seed) {
-        const Found found = illuminance_at(simulation, sensor, samples_per_run, seed);
+        const Found found = illuminance_at(simulation, sensor, samples_per_run, seed, unbiased);
         sum += found.value;
         squares += found.error * found.error;
     }
