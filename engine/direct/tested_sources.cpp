@@ -46,11 +46,8 @@ std::vector<T>& reused()
 
 } // namespace
 
-double nominal_rays(const LocalSource& lamp, std::size_t lamps, const DirectSettings& settings,
-                    const SourceShares& shares) noexcept
+double nominal_rays(std::size_t lamps, const DirectSettings& settings) noexcept
 {
-    if (!(lamp.seen_size(shares.from) < shares.glossy_width_rad))
-        return 0;
     return settings.tree && lamps > settings.most_lamps
                ? static_cast<double>(settings.most_lamps) / static_cast<double>(lamps)
                : 1;
@@ -77,9 +74,29 @@ Spectrum TestedSources::diffuse_value(const Direction& local) const noexcept
     return vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::diffuse);
 }
 
+/// What the highlight could give where the source comes nearest to its peak.
+double TestedSources::highlight_potential(const Candidate& c, const Direction& to_middle, Side side) const noexcept
+{
+    const Direction& v = vertex_.to_viewer;
+    const Direction peak = side == near_side ? Direction{-v.x, -v.y, v.z} : -v;
+    const double between = std::atan2(length(cross(to_middle, peak)), dot(to_middle, peak));
+    const double radius = std::atan(0.5 * c.size);
+    const Direction nearest =
+        between <= radius ? peak : normalized(to_middle * std::sin(between - radius) + peak * std::sin(radius));
+    if ((nearest.z > 0) != (side == near_side))
+        return 0;
+    const double solid_angle_sr = c.projected_sr[side] / std::fmax(std::fabs(nearest.z), 0.5 * c.size);
+    const double weight =
+        std::isinf(c.mis)
+            ? 1
+            : shadow_ray_weight(c.mis, solid_angle_sr * vertex_.bsdf.density_per_sr(v, nearest, LobeSet::specular));
+    return weight * c.projected_sr[side] * photopic(vertex_.bsdf.value_per_sr(v, nearest, LobeSet::specular));
+}
+
 void TestedSources::finish(Candidate& c, const Direction& to_middle, Spectrum source_radiance)
 {
     Direction local = vertex_.frame.to_local(to_middle);
+    double highlight = 0;
     for (const Side side : {near_side, far_side}) {
         if (!(c.projected_sr[side] > 0))
             continue;
@@ -89,11 +106,15 @@ void TestedSources::finish(Candidate& c, const Direction& to_middle, Spectrum so
         c.radiance += arriving * diffuse_value(local);
         if (side == near_side)
             c.irradiance += arriving;
-        if (c.mis > 0 && vertex_.bsdf.lobes().glossy)
-            c.radiance += arriving * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular);
+        if (!vertex_.bsdf.lobes().glossy)
+            continue;
+        const double density = std::fabs(local.z) / c.projected_sr[side]; // of a sample of the source, about
+        c.radiance += arriving * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular) *
+                      mis_weight(c, density, local);
+        highlight += photopic(source_radiance) * c.weight * std::fmax(0, highlight_potential(c, local, side));
     }
-    c.potential = photopic(c.radiance) + irradiance_part * photopic(c.irradiance);
-    total_ += c.potential;
+    c.potential = photopic(c.radiance) + highlight + irradiance_part * photopic(c.irradiance);
+    expected_ += c.potential;
     candidates_.push_back(c);
 }
 
@@ -119,8 +140,7 @@ void TestedSources::add_lamp(std::size_t lamp, double weight)
         c.projected_sr[near_side] = std::fmax(c.projected_sr[near_side], least_potential * safe / photopic_radiance);
     c.closed_form = c.closed_form && context_.settings.analytic;
     c.size = source.seen_size(shares_.from);
-    c.mis = std::holds_alternative<Illum>(source.material()) ? infinity
-                                                             : nominal_rays(source, lamps_, context_.settings, shares_);
+    c.mis = std::holds_alternative<Illum>(source.material()) ? infinity : nominal_rays(lamps_, context_.settings);
     finish(c, normalized(source.centre() - shares_.from), radiance);
 }
 
@@ -175,14 +195,15 @@ int TestedSources::rays_for(const Candidate& c) const noexcept
         return 1;
     // n rays to a source half hidden err by its potential / (2 sqrt(n)); sources share the noise by their potentials.
     const double noise = context_.settings.penumbra_noise;
-    return std::max(power_of_two(c.potential / (4 * noise * noise * total_), context_.settings.most_rays), pieces(c));
+    return std::max(power_of_two(c.potential / (4 * noise * noise * expected_), context_.settings.most_rays),
+                    pieces(c));
 }
 
-double TestedSources::mis_weight(const Candidate& c, const SourceSample& sample, const Direction& local) const noexcept
+double TestedSources::mis_weight(const Candidate& c, double density_per_sr, const Direction& local) const noexcept
 {
     if (std::isinf(c.mis))
         return 1;
-    return shadow_ray_weight(c.mis * sample.density_per_sr,
+    return shadow_ray_weight(c.mis * density_per_sr,
                              vertex_.bsdf.density_per_sr(vertex_.to_viewer, local, LobeSet::specular));
 }
 
@@ -213,9 +234,9 @@ void TestedSources::test_sample(const Candidate& c, const SourceSample& sample, 
     tested.reflected[side] += light * diffuse_value(local);
     if (side == near_side)
         tested.arriving += light;
-    if (c.mis > 0 && vertex_.bsdf.lobes().glossy)
+    if (vertex_.bsdf.lobes().glossy)
         tested.highlight += light * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular) *
-                            mis_weight(c, sample, local);
+                            mis_weight(c, sample.density_per_sr, local);
 }
 
 TestedSources::Tested TestedSources::trace(const Candidate& c, int count)
@@ -313,6 +334,7 @@ Gathered TestedSources::gather()
         [&](std::size_t i) {
             const Light light = test(candidates_[i]);
             add(light, 1);
+            expected_ -= (1 - light.visible_share) * candidates_[i].potential;
             return light.visible_share;
         },
         settings.adaptive ? settings.threshold : 0, settings.certainty);

@@ -7,10 +7,9 @@
 
 namespace lightwell {
 
-/// Shadow rays that a lamp is taken to get at a tested vertex when glossy rays that meet it are weighed: 0 where the
-/// lamp is wider than the highlight, which scattered rays then find better alone.
-double nominal_rays(const LocalSource& lamp, std::size_t lamps, const DirectSettings& settings,
-                    const SourceShares& shares) noexcept;
+/// Shadow rays that a lamp is taken to get at a tested vertex when glossy rays that meet it are weighed: does not
+/// depend on what was tested.
+double nominal_rays(std::size_t lamps, const DirectSettings& settings) noexcept;
 
 /// One DirectLight::gather_tested(): the sources that matter at a vertex, tested in the order of what they promise.
 class TestedSources {
@@ -60,7 +59,8 @@ private:
     void finish(Candidate& candidate, const Direction& to_middle, Spectrum source_radiance);
     int pieces(const Candidate& candidate) const noexcept;
     int rays_for(const Candidate& candidate) const noexcept;
-    double mis_weight(const Candidate& candidate, const SourceSample& sample, const Direction& local) const noexcept;
+    double mis_weight(const Candidate& candidate, double density_per_sr, const Direction& local) const noexcept;
+    double highlight_potential(const Candidate& candidate, const Direction& to_middle, Side side) const noexcept;
     void test_sample(const Candidate& candidate, const SourceSample& sample, Tested& tested);
     Tested trace(const Candidate& candidate, int count);
     Light test(const Candidate& candidate);
@@ -77,7 +77,7 @@ private:
     bool even_ = false;      ///< the diffuse lobes do not depend on the direction of the light
     Spectrum even_value_[2]; ///< 1/sr, by side
     std::vector<Candidate>& candidates_;
-    double total_ = 0; ///< of the potentials
+    double expected_ = 0; ///< what tested sources gave and the others could give
     Gathered sum_;
 };
 

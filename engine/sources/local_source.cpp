@@ -70,10 +70,9 @@ PointOnSource point_by_area(const FlatEmitter& e, UnitSquare u)
     return {triangle_by_area(corner(e, at, 0), corner(e, at, 1), corner(e, at, 2), {left, u.v}), flat_normal(e, at)};
 }
 
-PointOnSource point_by_area(const RingEmitter& e, UnitSquare u)
+PointOnSource point_by_area(const RingEmitter& e, const Frame& frame, UnitSquare u)
 {
     const Ring& ring = e.ring;
-    const Frame frame = frame_about(ring.normal);
     if (ring.inner_radius == 0) { // keeps neighbours together, which a straight edge of a shadow rewards
         const DiscPoint p = uniform_disc(u);
         return {ring.centre + (frame.x * p.x + frame.y * p.y) * ring.outer_radius, ring.normal};
@@ -121,7 +120,8 @@ SourceSample sphere_sample(const Sphere& sphere, const Point& from, UnitSquare u
 } // namespace
 
 LocalSource::LocalSource(Shape shape, const Material& material)
-    : shape_(std::move(shape)), material_(&material), strength_(photopic(emitted_radiance(material)))
+    : shape_(std::move(shape)), material_(&material), radiance_(emitted_radiance(material)),
+      strength_(photopic(radiance_))
 {
     Box& box = box_;
     if ((beam_ = std::get_if<Spotlight>(&material)) != nullptr) {
@@ -174,7 +174,7 @@ double LocalSource::potential(const Point& at, const Direction& normal, bool tra
 {
     const Vec3 to_centre = centre_ - at;
     const double squared = dot(to_centre, to_centre), distance = std::sqrt(squared);
-    if (beam_ != nullptr && !in_beam(to_centre, distance))
+    if (beam_ != nullptr && !in_beam(to_centre, distance, 1))
         return 0;
     double leaving = 1;
     if (flat_) {
@@ -191,16 +191,19 @@ double LocalSource::potential(const Point& at, const Direction& normal, bool tra
     return strength_ * std::fmin(pi, arriving * leaving * area_m2_ / std::fmax(squared, 1e-300));
 }
 
-/// Whether any point of the source may send its beam along -to_centre: the source's own size widens the cone.
-bool LocalSource::in_beam(const Vec3& to_centre, double distance) const noexcept
+/// Whether -to_centre lies in the beam when its cone is made wider, or narrower, by the size of the source.
+/// @param widened  1: some point of the source may send its beam there; -1: every point does
+bool LocalSource::in_beam(const Vec3& to_centre, double distance, int widened) const noexcept
 {
     if (!(distance > radius_m_))
-        return true;
-    const double sine = radius_m_ / distance, cosine = std::sqrt(1 - sine * sine);
+        return widened > 0;
+    const double sine = widened * radius_m_ / distance, cosine = std::sqrt(1 - sine * sine);
     const double sine_sum = sin_half_beam_ * cosine + cos_half_beam_ * sine;
+    const double least = cos_half_beam_ * cosine - sin_half_beam_ * sine;
+    if (sine_sum <= 0) // beyond pi, or below 0
+        return widened > 0;
     constexpr double rounding = 1e-12;
-    return sine_sum <= 0 ||
-           -dot(aim_, to_centre) >= distance * (cos_half_beam_ * cosine - sin_half_beam_ * sine - rounding);
+    return -dot(aim_, to_centre) >= distance * (least - widened * rounding);
 }
 
 std::optional<double> LocalSource::projected_solid_angle_sr(const Point& at, const Direction& normal) const noexcept
@@ -263,10 +266,11 @@ LocalSource::Reach LocalSource::reach() const noexcept
     return {box, narrow ? aim_ : facing_, narrow ? half_beam_rad_ : flat_ ? pi / 2 : pi, strength_ * area_m2_};
 }
 
-/// How the flat shapes are seen from one point, worked out once for all its samples.
+/// How the source is seen from one point, worked out once for all its samples.
 struct LocalSource::Seen {
     std::optional<SphericalRectangle> rectangle;
-    Direction normal;
+    Frame frame;             ///< of flat shapes
+    bool whole_beam = false; ///< no point of the source lies outside of its beam
 };
 
 SourceSample LocalSource::sample(const Point& from, UnitSquare u) const noexcept
@@ -279,10 +283,11 @@ SourceSample LocalSource::sample(const Point& from, UnitSquare u) const noexcept
 void LocalSource::sample(const Point& from, const UnitSquare* u, int count, SourceSample* samples) const noexcept
 {
     Seen seen;
-    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat != nullptr && flat->rectangle) {
+    if (flat_)
+        seen.frame = frame_about(facing_);
+    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat != nullptr && flat->rectangle)
         seen.rectangle.emplace(seen_rectangle(*flat, from));
-        seen.normal = flat_normal(*flat, 0);
-    }
+    seen.whole_beam = beam_ == nullptr || in_beam(centre_ - from, length(centre_ - from), -1);
     for (int i = 0; i < count; ++i)
         samples[i] = sample_seen(seen, from, u[i]);
 }
@@ -301,11 +306,8 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
     if (const auto* flat = std::get_if<FlatEmitter>(&shape_)) {
         if (seen.rectangle) {
             const SampledDirection d = seen.rectangle->sample(u);
-            s = {d.direction,
-                 plane_distance(seen.normal, corner(*flat, 0, 0) - from, d.direction),
-                 d.density_per_sr,
-                 {}};
-            cosine = -dot(seen.normal, d.direction);
+            s = {d.direction, plane_distance(facing_, corner(*flat, 0, 0) - from, d.direction), d.density_per_sr, {}};
+            cosine = -dot(facing_, d.direction);
         } else if (by_solid_angle(*flat)) {
             const WeightedChoice pick = choose_triangle(*flat, from, u.u);
             const SampledDirection d = seen_triangle(*flat, pick.index, from).sample({pick.left, u.v});
@@ -321,7 +323,7 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
     } else if (const auto* ball = std::get_if<SphereEmitter>(&shape_)) {
         s = sphere_sample(ball->sphere, from, u);
     } else if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
-        by_area(point_by_area(*ring, u));
+        by_area(point_by_area(*ring, seen.frame, u));
     } else if (const auto* cone = std::get_if<ConeEmitter>(&shape_)) {
         by_area(point_by_area(*cone, u));
     }
@@ -329,7 +331,10 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
         s.density_per_sr = 0;
         return s;
     }
-    s.radiance = emitted_towards(*material_, cosine, -s.to_light) * beam_share(*material_, s.distance_m);
+    if (beam_ == nullptr)
+        s.radiance = radiance_;
+    else if (seen.whole_beam || !emitted_towards(*material_, cosine, -s.to_light).is_black())
+        s.radiance = radiance_ * beam_share(*material_, s.distance_m);
     return s;
 }
 
