@@ -49,7 +49,7 @@ std::vector<T>& reused()
 double nominal_rays(std::size_t lamps, const DirectSettings& settings) noexcept
 {
     return settings.tree && lamps > settings.most_lamps
-               ? static_cast<double>(settings.most_lamps) / static_cast<double>(lamps)
+               ? static_cast<double>(settings.lamp_groups) / static_cast<double>(lamps)
                : 1;
 }
 
@@ -167,8 +167,9 @@ void TestedSources::find_candidates()
     const bool lamps = context_.kinds.lamps;
     if (lamps && settings.tree && lamps_ > 0) {
         auto& found = reused<LampTree::Representative>();
-        context_.sources.lamp_tree().cut({shares_.from, shares_.normal, shares_.transmits}, settings.most_lamps,
-                                         lamps_ > settings.most_lamps ? random_.one() : 0, found);
+        const bool many = lamps_ > settings.most_lamps;
+        context_.sources.lamp_tree().cut({shares_.from, shares_.normal, shares_.transmits},
+                                         many ? settings.lamp_groups : lamps_, many ? random_.one() : 0, found);
         for (const LampTree::Representative& r : found)
             add_lamp(static_cast<std::size_t>(r.lamp), 1 / r.probability);
     } else {

@@ -180,7 +180,8 @@ TEST(TestedLight, ASampledRemainderAndGroupsOfLampsKeepTheMean)
     sampled.threshold = 0.3;
     sampled.sampled_remainder = true;
     grouped.threshold = 0;
-    grouped.most_lamps = 20;
+    grouped.most_lamps = 0;
+    grouped.lamp_groups = 20;
     untreed.threshold = 0;
     untreed.tree = false;
     const Vertex vertex = vertex_at({1, 0.2, 0}, {0, 0, 1});
