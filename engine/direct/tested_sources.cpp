@@ -20,6 +20,9 @@ constexpr int most_rays_at_all = 64;
 constexpr double irradiance_part = 0.05 / pi;
 /// A potential by the middle of a source may miss what its edge gives: not below this share of a safe estimate.
 constexpr double least_potential = 0.1;
+/// A lamp seen smaller than this (size over distance) is ordered by its middle alone, right to half a percent; its
+/// exact irradiance is worked out when it is tested.
+constexpr double rough_size = 0.12;
 /// In choosing one of the untested sources, each has at least this share of its potential.
 constexpr double least_expectation = 0.05;
 
@@ -114,6 +117,8 @@ void TestedSources::finish(Candidate& c, const Direction& to_middle, Spectrum so
         highlight += photopic(source_radiance) * c.weight * std::fmax(0, highlight_potential(c, local, side));
     }
     c.potential = photopic(c.radiance) + highlight + irradiance_part * photopic(c.irradiance);
+    if (!(c.potential > 0))
+        return;
     expected_ += c.potential;
     candidates_.push_back(c);
 }
@@ -127,7 +132,25 @@ void TestedSources::add_lamp(std::size_t lamp, double weight)
     if (!(safe > 0) || !(photopic_radiance > 0))
         return;
     Candidate c{lamp, weight};
-    c.closed_form = true;
+    c.size = source.seen_size(shares_.from);
+    c.mis = std::holds_alternative<Illum>(source.material()) ? infinity : nominal_rays(lamps_, context_.settings);
+    const Vec3 to_middle = normalized(source.centre() - shares_.from);
+    c.rough = c.size < rough_size && dot(vertex_.frame.z, to_middle) > c.size && !shares_.transmits;
+    if (c.rough)
+        c.projected_sr[near_side] = source.middle_solid_angle_sr(shares_.from, vertex_.frame.z);
+    else
+        find_projected(c);
+    if (!c.closed_form)
+        c.projected_sr[near_side] = std::fmax(c.projected_sr[near_side], least_potential * safe / photopic_radiance);
+    finish(c, to_middle, radiance);
+}
+
+/// The projected solid angles, from a closed form where one is known.
+void TestedSources::find_projected(Candidate& c) const noexcept
+{
+    const LocalSource& source = context_.sources.lamps()[c.source];
+    c.rough = false;
+    c.closed_form = context_.settings.analytic;
     for (const Side side : {near_side, far_side}) {
         if (side == far_side && !shares_.transmits)
             continue;
@@ -136,12 +159,6 @@ void TestedSources::add_lamp(std::size_t lamp, double weight)
         c.closed_form = c.closed_form && exact;
         c.projected_sr[side] = exact ? *exact : source.middle_solid_angle_sr(shares_.from, normal);
     }
-    if (!c.closed_form)
-        c.projected_sr[near_side] = std::fmax(c.projected_sr[near_side], least_potential * safe / photopic_radiance);
-    c.closed_form = c.closed_form && context_.settings.analytic;
-    c.size = source.seen_size(shares_.from);
-    c.mis = std::holds_alternative<Illum>(source.material()) ? infinity : nominal_rays(lamps_, context_.settings);
-    finish(c, normalized(source.centre() - shares_.from), radiance);
 }
 
 void TestedSources::add_sun(std::size_t sun)
@@ -165,11 +182,10 @@ void TestedSources::find_candidates()
 {
     const DirectSettings& settings = context_.settings;
     const bool lamps = context_.kinds.lamps;
-    if (lamps && settings.tree && lamps_ > 0) {
+    if (lamps && settings.tree && lamps_ > settings.most_lamps) {
         auto& found = reused<LampTree::Representative>();
-        const bool many = lamps_ > settings.most_lamps;
-        context_.sources.lamp_tree().cut({shares_.from, shares_.normal, shares_.transmits},
-                                         many ? settings.lamp_groups : lamps_, many ? random_.one() : 0, found);
+        context_.sources.lamp_tree().cut({shares_.from, shares_.normal, shares_.transmits}, settings.lamp_groups,
+                                         random_.one(), found);
         for (const LampTree::Representative& r : found)
             add_lamp(static_cast<std::size_t>(r.lamp), 1 / r.probability);
     } else {
@@ -258,8 +274,10 @@ TestedSources::Tested TestedSources::trace(const Candidate& c, int count)
     return tested;
 }
 
-TestedSources::Light TestedSources::test(const Candidate& c)
+TestedSources::Light TestedSources::test(Candidate& c)
 {
+    if (c.rough)
+        find_projected(c);
     int count = rays_for(c);
     if (count > probes) {
         const Tested first = trace(c, probes);

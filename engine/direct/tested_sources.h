@@ -33,6 +33,7 @@ private:
         double weight;                     ///< 1, or for a lamp that stands for a group, one over its probability
         double projected_sr[2] = {0, 0};   ///< unoccluded irradiance for a radiance of 1
         bool closed_form = false;          ///< projected_sr is exact
+        bool rough = false;                ///< projected_sr is that of the middle
         double mis = 1;                    ///< nominal rays; for Illum infinite: no scattered ray finds it
         double size = 0;                   ///< over distance
         Spectrum radiance{}, irradiance{}; ///< of the vertex by this source when nothing is in the way, times weight
@@ -56,6 +57,7 @@ private:
     void find_candidates();
     void add_lamp(std::size_t lamp, double weight);
     void add_sun(std::size_t sun);
+    void find_projected(Candidate& candidate) const noexcept;
     void finish(Candidate& candidate, const Direction& to_middle, Spectrum source_radiance);
     int pieces(const Candidate& candidate) const noexcept;
     int rays_for(const Candidate& candidate) const noexcept;
@@ -63,7 +65,7 @@ private:
     double highlight_potential(const Candidate& candidate, const Direction& to_middle, Side side) const noexcept;
     void test_sample(const Candidate& candidate, const SourceSample& sample, Tested& tested);
     Tested trace(const Candidate& candidate, int count);
-    Light test(const Candidate& candidate);
+    Light test(Candidate& candidate);
     void add(const Light& light, double share);
     void add_untested(const AdaptiveOutcome& outcome);
     double hemisphere_share(const Candidate& candidate) const noexcept;

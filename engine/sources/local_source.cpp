@@ -33,9 +33,13 @@ Vec3 flat_normal(const FlatEmitter& e, std::size_t triangle)
     return normalized(cross(corner(e, triangle, 1) - a, corner(e, triangle, 2) - a));
 }
 
-bool by_solid_angle(const FlatEmitter& e)
+/// Seen smaller than this (size over distance), solid angle and area are nearly proportional over a flat piece, and a
+/// sample by area is several times cheaper.
+constexpr double least_spherical_size = 0.1;
+
+bool by_solid_angle(const FlatEmitter& e, double seen_size)
 {
-    return e.rectangle || e.summed_area.size() <= most_spherical_triangles;
+    return seen_size >= least_spherical_size && (e.rectangle || e.summed_area.size() <= most_spherical_triangles);
 }
 
 SphericalTriangle seen_triangle(const FlatEmitter& e, std::size_t i, const Point& from)
@@ -66,6 +70,9 @@ WeightedChoice choose_triangle(const FlatEmitter& e, const Point& from, double u
 
 PointOnSource point_by_area(const FlatEmitter& e, UnitSquare u)
 {
+    if (e.rectangle)
+        return {corner(e, 0, 0) + (corner(e, 0, 1) - corner(e, 0, 0)) * u.u + (corner(e, 0, 2) - corner(e, 0, 0)) * u.v,
+                flat_normal(e, 0)};
     const auto [at, share, left] = choose(e.summed_area.data(), e.summed_area.size(), u.u);
     return {triangle_by_area(corner(e, at, 0), corner(e, at, 1), corner(e, at, 2), {left, u.v}), flat_normal(e, at)};
 }
@@ -270,6 +277,7 @@ LocalSource::Reach LocalSource::reach() const noexcept
 struct LocalSource::Seen {
     std::optional<SphericalRectangle> rectangle;
     Frame frame;             ///< of flat shapes
+    double size = 0;         ///< over distance
     bool whole_beam = false; ///< no point of the source lies outside of its beam
 };
 
@@ -285,7 +293,9 @@ void LocalSource::sample(const Point& from, const UnitSquare* u, int count, Sour
     Seen seen;
     if (flat_)
         seen.frame = frame_about(facing_);
-    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat != nullptr && flat->rectangle)
+    seen.size = seen_size(from);
+    if (const auto* flat = std::get_if<FlatEmitter>(&shape_);
+        flat != nullptr && flat->rectangle && by_solid_angle(*flat, seen.size))
         seen.rectangle.emplace(seen_rectangle(*flat, from));
     seen.whole_beam = beam_ == nullptr || in_beam(centre_ - from, length(centre_ - from), -1);
     for (int i = 0; i < count; ++i)
@@ -299,7 +309,7 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
     const auto by_area = [&](const PointOnSource& p) {
         const Vec3 way = p.point - from;
         s.distance_m = length(way);
-        s.to_light = normalized(way);
+        s.to_light = way / s.distance_m;
         cosine = -dot(p.normal, s.to_light);
         s.density_per_sr = per_solid_angle(area_m2_, s.distance_m, cosine);
     };
@@ -308,7 +318,7 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
             const SampledDirection d = seen.rectangle->sample(u);
             s = {d.direction, plane_distance(facing_, corner(*flat, 0, 0) - from, d.direction), d.density_per_sr, {}};
             cosine = -dot(facing_, d.direction);
-        } else if (by_solid_angle(*flat)) {
+        } else if (!flat->rectangle && by_solid_angle(*flat, seen.size)) {
             const WeightedChoice pick = choose_triangle(*flat, from, u.u);
             const SampledDirection d = seen_triangle(*flat, pick.index, from).sample({pick.left, u.v});
             const Direction normal = flat_normal(*flat, pick.index);
@@ -340,7 +350,7 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
 
 double LocalSource::density_per_sr(const Point& from, const Direction& direction, const Hit& hit) const noexcept
 {
-    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat && by_solid_angle(*flat)) {
+    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat && by_solid_angle(*flat, seen_size(from))) {
         if (flat->rectangle)
             return seen_rectangle(*flat, from).density_per_sr(direction);
         double total = 0;
