@@ -179,7 +179,6 @@ Gathered DirectLight::gather_tested(const Vertex& vertex, const SourceKinds& kin
     shares.from = vertex.hit.position;
     shares.normal = vertex.side;
     shares.transmits = vertex.transmits();
-    shares.glossy_width_rad = vertex.bsdf.lobes().glossy ? vertex.bsdf.lobes().glossy_width_rad : 0;
     shares.tested = true;
     shares.lamp_rays = shares.sky_rays = 0;
     shares.portal_share = 0;
@@ -191,8 +190,7 @@ double DirectLight::lamp_density(const SourceShares& shares, int lamp, const Dir
 {
     const LocalSource& source = sources_.lamps()[static_cast<std::size_t>(lamp)];
     if (shares.tested)
-        return source.density_per_sr(shares.from, direction, hit) *
-               nominal_rays(source, sources_.lamps().size(), settings_, shares);
+        return source.density_per_sr(shares.from, direction, hit) * nominal_rays(sources_.lamps().size(), settings_);
     double probability = 0;
     if (!few_lamps())
         probability = sources_.lamp_tree().probability(lamp, {shares.from, shares.normal, shares.transmits});

@@ -14,9 +14,8 @@ struct SourceShares {
     Point from;
     Direction normal;
     bool transmits = false;
-    bool tested = false;         ///< by gather_tested()
-    double glossy_width_rad = 0; ///< of the vertex, when tested
-    double lamp_total = 0;       ///< sum of the lamps' potentials, when they are few
+    bool tested = false;   ///< by gather_tested()
+    double lamp_total = 0; ///< sum of the lamps' potentials, when they are few
     int lamp_rays = 0;
     int sky_rays = 0;
     double portal_share = 0; ///< of the sky's rays
@@ -89,7 +88,7 @@ public:
     /// count 0. Scattered glossy rays carry 1 - shadow_ray_weight() of lamp_density().
     /// Error: biased by untested sources (at most doubt(), none with a threshold of 0 or a sampled remainder), and in
     ///        penumbrae by the ratio of sums with which closed forms are scaled (falls with the number of rays;
-    ///        tests/analytic/tested_light_test.cpp)
+    ///        tests/unit/direct/tested_light_test.cpp)
     /// Source  Ward 1994, Section 3.3
     Gathered gather_tested(const Vertex& vertex, const SourceKinds& kinds, const TestedGeneration& generation,
                            PathRandom& random, SourceShares& shares) const;

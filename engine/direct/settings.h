@@ -14,7 +14,8 @@ struct DirectSettings {
     double penumbra_noise =
         0.05;           ///< relative noise aimed at where sources are partly hidden; sets shadow rays a source
     int most_rays = 16; ///< to one source, of each kind (probes; pieces)
-    std::size_t most_lamps = 128;   ///< beyond, lamps are taken in groups, one of each at random
+    std::size_t most_lamps = 256;   ///< of a scene that are taken one by one; beyond, in groups
+    std::size_t lamp_groups = 40;   ///< one lamp of each at random
     bool adaptive = true;           ///< false: every source is tested
     bool subdivide = true;          ///< false: one shadow ray a source
     bool analytic = true;           ///< false: irradiance from the samples alone, also where a closed form is known

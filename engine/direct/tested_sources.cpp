@@ -20,6 +20,9 @@ constexpr int most_rays_at_all = 64;
 constexpr double irradiance_part = 0.05 / pi;
 /// A potential by the middle of a source may miss what its edge gives: not below this share of a safe estimate.
 constexpr double least_potential = 0.1;
+/// A lamp seen smaller than this (size over distance) is ordered by its middle alone, right to half a percent; its
+/// exact irradiance is worked out when it is tested.
+constexpr double rough_size = 0.12;
 /// In choosing one of the untested sources, each has at least this share of its potential.
 constexpr double least_expectation = 0.05;
 
@@ -46,13 +49,10 @@ std::vector<T>& reused()
 
 } // namespace
 
-double nominal_rays(const LocalSource& lamp, std::size_t lamps, const DirectSettings& settings,
-                    const SourceShares& shares) noexcept
+double nominal_rays(std::size_t lamps, const DirectSettings& settings) noexcept
 {
-    if (!(lamp.seen_size(shares.from) < shares.glossy_width_rad))
-        return 0;
     return settings.tree && lamps > settings.most_lamps
-               ? static_cast<double>(settings.most_lamps) / static_cast<double>(lamps)
+               ? static_cast<double>(settings.lamp_groups) / static_cast<double>(lamps)
                : 1;
 }
 
@@ -77,9 +77,29 @@ Spectrum TestedSources::diffuse_value(const Direction& local) const noexcept
     return vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::diffuse);
 }
 
+/// What the highlight could give where the source comes nearest to its peak.
+double TestedSources::highlight_potential(const Candidate& c, const Direction& to_middle, Side side) const noexcept
+{
+    const Direction& v = vertex_.to_viewer;
+    const Direction peak = side == near_side ? Direction{-v.x, -v.y, v.z} : -v;
+    const double between = std::atan2(length(cross(to_middle, peak)), dot(to_middle, peak));
+    const double radius = std::atan(0.5 * c.size);
+    const Direction nearest =
+        between <= radius ? peak : normalized(to_middle * std::sin(between - radius) + peak * std::sin(radius));
+    if ((nearest.z > 0) != (side == near_side))
+        return 0;
+    const double solid_angle_sr = c.projected_sr[side] / std::fmax(std::fabs(nearest.z), 0.5 * c.size);
+    const double weight =
+        std::isinf(c.mis)
+            ? 1
+            : shadow_ray_weight(c.mis, solid_angle_sr * vertex_.bsdf.density_per_sr(v, nearest, LobeSet::specular));
+    return weight * c.projected_sr[side] * photopic(vertex_.bsdf.value_per_sr(v, nearest, LobeSet::specular));
+}
+
 void TestedSources::finish(Candidate& c, const Direction& to_middle, Spectrum source_radiance)
 {
     Direction local = vertex_.frame.to_local(to_middle);
+    double highlight = 0;
     for (const Side side : {near_side, far_side}) {
         if (!(c.projected_sr[side] > 0))
             continue;
@@ -89,11 +109,17 @@ void TestedSources::finish(Candidate& c, const Direction& to_middle, Spectrum so
         c.radiance += arriving * diffuse_value(local);
         if (side == near_side)
             c.irradiance += arriving;
-        if (c.mis > 0 && vertex_.bsdf.lobes().glossy)
-            c.radiance += arriving * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular);
+        if (!vertex_.bsdf.lobes().glossy)
+            continue;
+        const double density = std::fabs(local.z) / c.projected_sr[side]; // of a sample of the source, about
+        c.radiance += arriving * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular) *
+                      mis_weight(c, density, local);
+        highlight += photopic(source_radiance) * c.weight * std::fmax(0, highlight_potential(c, local, side));
     }
-    c.potential = photopic(c.radiance) + irradiance_part * photopic(c.irradiance);
-    total_ += c.potential;
+    c.potential = photopic(c.radiance) + highlight + irradiance_part * photopic(c.irradiance);
+    if (!(c.potential > 0))
+        return;
+    expected_ += c.potential;
     candidates_.push_back(c);
 }
 
@@ -106,7 +132,25 @@ void TestedSources::add_lamp(std::size_t lamp, double weight)
     if (!(safe > 0) || !(photopic_radiance > 0))
         return;
     Candidate c{lamp, weight};
-    c.closed_form = true;
+    c.size = source.seen_size(shares_.from);
+    c.mis = std::holds_alternative<Illum>(source.material()) ? infinity : nominal_rays(lamps_, context_.settings);
+    const Vec3 to_middle = normalized(source.centre() - shares_.from);
+    c.rough = c.size < rough_size && dot(vertex_.frame.z, to_middle) > c.size && !shares_.transmits;
+    if (c.rough)
+        c.projected_sr[near_side] = source.middle_solid_angle_sr(shares_.from, vertex_.frame.z);
+    else
+        find_projected(c);
+    if (!c.closed_form)
+        c.projected_sr[near_side] = std::fmax(c.projected_sr[near_side], least_potential * safe / photopic_radiance);
+    finish(c, to_middle, radiance);
+}
+
+/// The projected solid angles, from a closed form where one is known.
+void TestedSources::find_projected(Candidate& c) const noexcept
+{
+    const LocalSource& source = context_.sources.lamps()[c.source];
+    c.rough = false;
+    c.closed_form = context_.settings.analytic;
     for (const Side side : {near_side, far_side}) {
         if (side == far_side && !shares_.transmits)
             continue;
@@ -115,13 +159,6 @@ void TestedSources::add_lamp(std::size_t lamp, double weight)
         c.closed_form = c.closed_form && exact;
         c.projected_sr[side] = exact ? *exact : source.middle_solid_angle_sr(shares_.from, normal);
     }
-    if (!c.closed_form)
-        c.projected_sr[near_side] = std::fmax(c.projected_sr[near_side], least_potential * safe / photopic_radiance);
-    c.closed_form = c.closed_form && context_.settings.analytic;
-    c.size = source.seen_size(shares_.from);
-    c.mis = std::holds_alternative<Illum>(source.material()) ? infinity
-                                                             : nominal_rays(source, lamps_, context_.settings, shares_);
-    finish(c, normalized(source.centre() - shares_.from), radiance);
 }
 
 void TestedSources::add_sun(std::size_t sun)
@@ -145,10 +182,10 @@ void TestedSources::find_candidates()
 {
     const DirectSettings& settings = context_.settings;
     const bool lamps = context_.kinds.lamps;
-    if (lamps && settings.tree && lamps_ > 0) {
+    if (lamps && settings.tree && lamps_ > settings.most_lamps) {
         auto& found = reused<LampTree::Representative>();
-        context_.sources.lamp_tree().cut({shares_.from, shares_.normal, shares_.transmits}, settings.most_lamps,
-                                         lamps_ > settings.most_lamps ? random_.one() : 0, found);
+        context_.sources.lamp_tree().cut({shares_.from, shares_.normal, shares_.transmits}, settings.lamp_groups,
+                                         random_.one(), found);
         for (const LampTree::Representative& r : found)
             add_lamp(static_cast<std::size_t>(r.lamp), 1 / r.probability);
     } else {
@@ -175,14 +212,15 @@ int TestedSources::rays_for(const Candidate& c) const noexcept
         return 1;
     // n rays to a source half hidden err by its potential / (2 sqrt(n)); sources share the noise by their potentials.
     const double noise = context_.settings.penumbra_noise;
-    return std::max(power_of_two(c.potential / (4 * noise * noise * total_), context_.settings.most_rays), pieces(c));
+    return std::max(power_of_two(c.potential / (4 * noise * noise * expected_), context_.settings.most_rays),
+                    pieces(c));
 }
 
-double TestedSources::mis_weight(const Candidate& c, const SourceSample& sample, const Direction& local) const noexcept
+double TestedSources::mis_weight(const Candidate& c, double density_per_sr, const Direction& local) const noexcept
 {
     if (std::isinf(c.mis))
         return 1;
-    return shadow_ray_weight(c.mis * sample.density_per_sr,
+    return shadow_ray_weight(c.mis * density_per_sr,
                              vertex_.bsdf.density_per_sr(vertex_.to_viewer, local, LobeSet::specular));
 }
 
@@ -213,9 +251,9 @@ void TestedSources::test_sample(const Candidate& c, const SourceSample& sample, 
     tested.reflected[side] += light * diffuse_value(local);
     if (side == near_side)
         tested.arriving += light;
-    if (c.mis > 0 && vertex_.bsdf.lobes().glossy)
+    if (vertex_.bsdf.lobes().glossy)
         tested.highlight += light * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular) *
-                            mis_weight(c, sample, local);
+                            mis_weight(c, sample.density_per_sr, local);
 }
 
 TestedSources::Tested TestedSources::trace(const Candidate& c, int count)
@@ -236,8 +274,10 @@ TestedSources::Tested TestedSources::trace(const Candidate& c, int count)
     return tested;
 }
 
-TestedSources::Light TestedSources::test(const Candidate& c)
+TestedSources::Light TestedSources::test(Candidate& c)
 {
+    if (c.rough)
+        find_projected(c);
     int count = rays_for(c);
     if (count > probes) {
         const Tested first = trace(c, probes);
@@ -313,6 +353,7 @@ Gathered TestedSources::gather()
         [&](std::size_t i) {
             const Light light = test(candidates_[i]);
             add(light, 1);
+            expected_ -= (1 - light.visible_share) * candidates_[i].potential;
             return light.visible_share;
         },
         settings.adaptive ? settings.threshold : 0, settings.certainty);

@@ -7,10 +7,9 @@
 
 namespace lightwell {
 
-/// Shadow rays that a lamp is taken to get at a tested vertex when glossy rays that meet it are weighed: 0 where the
-/// lamp is wider than the highlight, which scattered rays then find better alone.
-double nominal_rays(const LocalSource& lamp, std::size_t lamps, const DirectSettings& settings,
-                    const SourceShares& shares) noexcept;
+/// Shadow rays that a lamp is taken to get at a tested vertex when glossy rays that meet it are weighed: does not
+/// depend on what was tested.
+double nominal_rays(std::size_t lamps, const DirectSettings& settings) noexcept;
 
 /// One DirectLight::gather_tested(): the sources that matter at a vertex, tested in the order of what they promise.
 class TestedSources {
@@ -34,6 +33,7 @@ private:
         double weight;                     ///< 1, or for a lamp that stands for a group, one over its probability
         double projected_sr[2] = {0, 0};   ///< unoccluded irradiance for a radiance of 1
         bool closed_form = false;          ///< projected_sr is exact
+        bool rough = false;                ///< projected_sr is that of the middle
         double mis = 1;                    ///< nominal rays; for Illum infinite: no scattered ray finds it
         double size = 0;                   ///< over distance
         Spectrum radiance{}, irradiance{}; ///< of the vertex by this source when nothing is in the way, times weight
@@ -57,13 +57,15 @@ private:
     void find_candidates();
     void add_lamp(std::size_t lamp, double weight);
     void add_sun(std::size_t sun);
+    void find_projected(Candidate& candidate) const noexcept;
     void finish(Candidate& candidate, const Direction& to_middle, Spectrum source_radiance);
     int pieces(const Candidate& candidate) const noexcept;
     int rays_for(const Candidate& candidate) const noexcept;
-    double mis_weight(const Candidate& candidate, const SourceSample& sample, const Direction& local) const noexcept;
+    double mis_weight(const Candidate& candidate, double density_per_sr, const Direction& local) const noexcept;
+    double highlight_potential(const Candidate& candidate, const Direction& to_middle, Side side) const noexcept;
     void test_sample(const Candidate& candidate, const SourceSample& sample, Tested& tested);
     Tested trace(const Candidate& candidate, int count);
-    Light test(const Candidate& candidate);
+    Light test(Candidate& candidate);
     void add(const Light& light, double share);
     void add_untested(const AdaptiveOutcome& outcome);
     double hemisphere_share(const Candidate& candidate) const noexcept;
@@ -77,7 +79,7 @@ private:
     bool even_ = false;      ///< the diffuse lobes do not depend on the direction of the light
     Spectrum even_value_[2]; ///< 1/sr, by side
     std::vector<Candidate>& candidates_;
-    double total_ = 0; ///< of the potentials
+    double expected_ = 0; ///< what tested sources gave and the others could give
     Gathered sum_;
 };
 

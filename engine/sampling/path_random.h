@@ -17,9 +17,7 @@ public:
     /// paths of the item.
     void pairs(int count, UnitSquare* points) noexcept
     {
-        for (int i = 0; i < count; ++i)
-            points[i] =
-                sequence_.pair(index_ * static_cast<std::uint32_t>(count) + static_cast<std::uint32_t>(i), dimension_);
+        sequence_.pairs(index_ * static_cast<std::uint32_t>(count), count, dimension_, points);
         ++dimension_;
     }
 

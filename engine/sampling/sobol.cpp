@@ -100,13 +100,24 @@ std::uint32_t owen_scrambled(std::uint32_t fraction, std::uint32_t seed) noexcep
 
 UnitSquare SampleSequence::pair(std::uint32_t sample_index, std::uint32_t dimension_pair) const noexcept
 {
+    UnitSquare point;
+    pairs(sample_index, 1, dimension_pair, &point);
+    return point;
+}
+
+void SampleSequence::pairs(std::uint32_t first_index, int count, std::uint32_t dimension_pair,
+                           UnitSquare* points) const noexcept
+{
     const std::uint64_t group = mix_bits(key_, dimension_pair / 2);
     const std::uint64_t own = mix_bits(group, dimension_pair % 2);
-    // Scrambling the index shuffles the points, yet keeps every aligned power-of-two run together.
-    const std::uint32_t index = owen_scrambled(sample_index, static_cast<std::uint32_t>(group));
     const int first = dimension_pair % 2 ? 2 : 0;
-    return {fraction(owen_scrambled(sobol_bits(index, first), static_cast<std::uint32_t>(own))),
-            fraction(owen_scrambled(sobol_bits(index, first + 1), static_cast<std::uint32_t>(own >> 32)))};
+    for (int i = 0; i < count; ++i) {
+        // Scrambling the index shuffles the points, yet keeps every aligned power-of-two run together.
+        const std::uint32_t index =
+            owen_scrambled(first_index + static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(group));
+        points[i] = {fraction(owen_scrambled(sobol_bits(index, first), static_cast<std::uint32_t>(own))),
+                     fraction(owen_scrambled(sobol_bits(index, first + 1), static_cast<std::uint32_t>(own >> 32)))};
+    }
 }
 
 double SampleSequence::one(std::uint32_t sample_index, std::uint32_t dimension) const noexcept

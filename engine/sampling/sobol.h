@@ -27,6 +27,8 @@ public:
     /// Any power-of-two run of indices that starts at a multiple of its length is stratified.
     /// @param dimension_pair  any number; pairs 2n and 2n + 1 are stratified jointly
     UnitSquare pair(std::uint32_t sample_index, std::uint32_t dimension_pair) const noexcept;
+    /// pair() of `count` indices from `first_index` on.
+    void pairs(std::uint32_t first_index, int count, std::uint32_t dimension_pair, UnitSquare* points) const noexcept;
     /// One coordinate, unrelated to those of pair().
     double one(std::uint32_t sample_index, std::uint32_t dimension) const noexcept;
 

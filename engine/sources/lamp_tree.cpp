@@ -8,21 +8,25 @@ namespace lightwell {
 namespace {
 
 /// What is turned almost away is still found now and then: the cosines are those of the middle.
-constexpr double least_cosine = 0.05;
-/// Rounding of the cosines by which nodes are left out.
-constexpr double rounding = 1e-9;
+constexpr float least_cosine = 0.05f;
+/// Rounding of the cosines by which nodes are left out, and of places in units of the tree.
+constexpr float rounding = 1e-5f;
+/// A group that is seen smaller than this (radius over distance) and faces one way gives about the same light from
+/// each of its lamps: they are told apart by strength alone, without walking down to them.
+constexpr float compact_size = 0.1f;
+constexpr float compact_spread = 0.995f;
 /// (sqrt(5) - 1) / 2: its multiples are spread evenly over [0, 1).
 constexpr double golden = 0.6180339887498949;
 
 /// Cosine of the difference of two angles, at least 0 rad.
-double cos_difference(double cos_a, double sin_a, double cos_b, double sin_b)
+float cos_difference(float cos_a, float sin_a, float cos_b, float sin_b)
 {
     return cos_a >= cos_b ? 1 : cos_a * cos_b + sin_a * sin_b;
 }
 
-double sine_of(double cosine)
+float sine_of(float cosine)
 {
-    return std::sqrt(std::fmax(0, 1 - cosine * cosine));
+    return std::sqrt(std::max(0.0f, 1 - cosine * cosine));
 }
 
 /// Directions within an angle of an axis.
@@ -52,7 +56,7 @@ DirectionCone merged(DirectionCone a, DirectionCone b)
 struct LampTree::Builder {
     LampTree& tree;
     std::vector<LocalSource::Reach> reach;
-    std::vector<int> order;
+    double whole; ///< strength of all
 
     /// What a finished subtree hands to its parent.
     struct Bounds {
@@ -77,115 +81,177 @@ struct LampTree::Builder {
     {
         Box middles;
         for (std::size_t i = first; i < first + count; ++i)
-            middles.extend(reach[static_cast<std::size_t>(order[i])].box.centre());
+            middles.extend(reach[tree.order_[i]].box.centre());
         const Vec3 extent = middles.high - middles.low;
         const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-        const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto begin = tree.order_.begin() + static_cast<std::ptrdiff_t>(first);
         // Lamps at the same place keep the order of the scene, so that the tree is the same everywhere.
         std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(count / 2),
-                         begin + static_cast<std::ptrdiff_t>(count), [&](int a, int b) {
-                             const double pa = reach[static_cast<std::size_t>(a)].box.centre()[axis];
-                             const double pb = reach[static_cast<std::size_t>(b)].box.centre()[axis];
+                         begin + static_cast<std::ptrdiff_t>(count), [&](std::uint32_t a, std::uint32_t b) {
+                             const double pa = reach[a].box.centre()[axis], pb = reach[b].box.centre()[axis];
                              return pa < pb || (pa == pb && a < b);
                          });
     }
-    Bounds build(std::size_t first, std::size_t count, std::uint32_t parent)
+    Bounds build(std::uint32_t here, std::size_t first, std::size_t count)
     {
-        const auto here = static_cast<std::uint32_t>(tree.nodes_.size());
-        tree.nodes_.push_back({});
         Bounds bounds;
         if (count == 1) {
-            const int lamp = order[first];
-            bounds = bounds_of(reach[static_cast<std::size_t>(lamp)]);
-            tree.nodes_[here].lamp = lamp;
-            tree.leaf_of_[static_cast<std::size_t>(lamp)] = here;
+            bounds = bounds_of(reach[tree.order_[first]]);
+            tree.leaf_of_[tree.order_[first]] = here;
         } else {
             split(first, count);
-            const Bounds left = build(first, count / 2, here);
-            const auto right_node = static_cast<std::uint32_t>(tree.nodes_.size());
-            bounds = both(left, build(first + count / 2, count - count / 2, here));
-            tree.nodes_[here].right = right_node;
-            tree.nodes_[here].lamp = -1;
+            const auto child = static_cast<std::uint32_t>(tree.nodes_.size());
+            tree.nodes_.resize(tree.nodes_.size() + 2);
+            tree.nodes_[here].child = child;
+            tree.nodes_[child].parent = tree.nodes_[child + 1].parent = here;
+            const Bounds left = build(child, first, count / 2);
+            bounds = both(left, build(child + 1, first + count / 2, count - count / 2));
         }
-        Node& node = tree.nodes_[here];
-        node.parent = parent;
-        node.centre = bounds.box.centre();
-        node.radius_m = 0.5 * bounds.box.diagonal();
-        node.axis = bounds.axes.axis;
-        node.cos_spread = std::cos(bounds.axes.half_rad);
-        node.sin_spread = std::sin(bounds.axes.half_rad);
-        node.cos_emission = std::cos(bounds.emission_rad);
-        node.strength = bounds.strength;
+        fill(tree.nodes_[here], bounds);
+        tree.nodes_[here].first = static_cast<std::uint32_t>(first);
+        tree.nodes_[here].count = static_cast<std::uint32_t>(count);
         return bounds;
+    }
+    void fill(Node& node, const Bounds& bounds) const
+    {
+        const Vec3 centre = (bounds.box.centre() - tree.middle_) / tree.unit_m_;
+        node.x = static_cast<float>(centre.x);
+        node.y = static_cast<float>(centre.y);
+        node.z = static_cast<float>(centre.z);
+        node.radius = static_cast<float>(0.5 * bounds.box.diagonal() / tree.unit_m_) + rounding * 0.1f;
+        node.axis_x = static_cast<float>(bounds.axes.axis.x);
+        node.axis_y = static_cast<float>(bounds.axes.axis.y);
+        node.axis_z = static_cast<float>(bounds.axes.axis.z);
+        node.cos_spread = static_cast<float>(std::cos(bounds.axes.half_rad));
+        node.sin_spread = static_cast<float>(std::sin(bounds.axes.half_rad));
+        node.cos_emission = static_cast<float>(std::cos(bounds.emission_rad));
+        node.strength = static_cast<float>(bounds.strength / whole);
     }
 };
 
-LampTree::LampTree(const std::vector<LocalSource>& lamps) : leaf_of_(lamps.size())
+LampTree::LampTree(const std::vector<LocalSource>& lamps) : order_(lamps.size()), leaf_of_(lamps.size())
 {
-    Builder builder{*this, {}, std::vector<int>(lamps.size())};
-    for (const LocalSource& lamp : lamps)
+    if (lamps.empty())
+        return;
+    Builder builder{*this, {}, 0};
+    Box box;
+    for (const LocalSource& lamp : lamps) {
         builder.reach.push_back(lamp.reach());
-    std::iota(builder.order.begin(), builder.order.end(), 0);
+        builder.whole += builder.reach.back().strength_W_per_sr;
+        box.extend(builder.reach.back().box);
+    }
+    middle_ = box.centre();
+    unit_m_ = 0.5 * box.diagonal();
+    if (!(unit_m_ > 0 && builder.whole > 0))
+        return;
+    std::iota(order_.begin(), order_.end(), 0u);
     nodes_.reserve(2 * lamps.size());
-    if (!lamps.empty())
-        builder.build(0, lamps.size(), 0);
+    nodes_.resize(1);
+    builder.build(0, 0, lamps.size());
+    double sum = 0;
+    for (const std::uint32_t lamp : order_)
+        summed_strength_.push_back(sum += builder.reach[lamp].strength_W_per_sr / builder.whole);
 }
 
-double LampTree::importance(const Node& node, const Receiver& receiver) const noexcept
+LampTree::Seen LampTree::seen_from(const Receiver& receiver) const noexcept
 {
-    const Vec3 to_centre = node.centre - receiver.at;
-    const double squared = dot(to_centre, to_centre), radius2 = node.radius_m * node.radius_m;
+    const Vec3 at = (receiver.at - middle_) / unit_m_;
+    return {static_cast<float>(at.x),
+            static_cast<float>(at.y),
+            static_cast<float>(at.z),
+            static_cast<float>(receiver.normal.x),
+            static_cast<float>(receiver.normal.y),
+            static_cast<float>(receiver.normal.z),
+            receiver.transmits};
+}
+
+float LampTree::importance(const Node& node, const Seen& from) noexcept
+{
+    const float x = node.x - from.x, y = node.y - from.y, z = node.z - from.z;
+    const float squared = x * x + y * y + z * z, radius2 = node.radius * node.radius;
     if (!(squared > radius2))
-        return node.strength / std::fmax(radius2, 1e-300);
-    const double distance = std::sqrt(squared);
+        return node.strength / radius2;
+    const float per_distance = 1 / std::sqrt(squared);
     // Seen from the receiver, the node fills a cone of this half-angle: every angle below may be smaller by as much.
-    const double sine = node.radius_m / distance, cosine = sine_of(sine);
-    double arriving = dot(receiver.normal, to_centre) / distance;
-    if (receiver.transmits)
+    const float sine = node.radius * per_distance, cosine = sine_of(sine);
+    float arriving = (from.normal_x * x + from.normal_y * y + from.normal_z * z) * per_distance;
+    if (from.transmits)
         arriving = std::fabs(arriving);
     arriving = cos_difference(arriving, sine_of(arriving), cosine, sine);
     if (arriving <= -rounding)
         return 0;
-    const double leaving = -dot(node.axis, to_centre) / distance;
-    const double within = cos_difference(leaving, sine_of(leaving), node.cos_spread, node.sin_spread);
-    const double nearest = cos_difference(within, sine_of(within), cosine, sine);
+    const float leaving = -(node.axis_x * x + node.axis_y * y + node.axis_z * z) * per_distance;
+    const float within = cos_difference(leaving, sine_of(leaving), node.cos_spread, node.sin_spread);
+    const float nearest = cos_difference(within, sine_of(within), cosine, sine);
     if (nearest <= node.cos_emission - rounding)
         return 0;
-    return node.strength * std::fmax(arriving, least_cosine) * std::fmax(nearest, least_cosine) / squared;
+    return node.strength * std::max(arriving, least_cosine) * std::max(nearest, least_cosine) / squared;
 }
 
-LampTree::Chosen LampTree::descend(std::uint32_t from, const Receiver& receiver, double u) const noexcept
+bool LampTree::compact(const Node& node, const Seen& from) noexcept
 {
-    if (nodes_.empty())
-        return {};
+    const float x = node.x - from.x, y = node.y - from.y, z = node.z - from.z;
+    const bool one_way = node.cos_spread > compact_spread ? node.cos_emission <= rounding : node.cos_spread < -0.999f;
+    return one_way && node.radius * node.radius < compact_size * compact_size * (x * x + y * y + z * z);
+}
+
+LampTree::Chosen LampTree::within(const Node& node, double u) const noexcept
+{
+    const double before = node.first == 0 ? 0 : summed_strength_[node.first - 1];
+    const double wanted = before + u * (summed_strength_[node.first + node.count - 1] - before);
+    const auto begin = summed_strength_.begin() + node.first;
+    const auto at =
+        static_cast<std::size_t>(std::upper_bound(begin, begin + (node.count - 1), wanted) - summed_strength_.begin());
+    return {static_cast<int>(order_[at]), share_within(node, at)};
+}
+
+double LampTree::share_within(const Node& node, std::size_t place) const noexcept
+{
+    const double before = node.first == 0 ? 0 : summed_strength_[node.first - 1];
+    const double own = summed_strength_[place] - (place == 0 ? 0 : summed_strength_[place - 1]);
+    return own / (summed_strength_[node.first + node.count - 1] - before);
+}
+
+LampTree::Chosen LampTree::choose(const Receiver& receiver, double u) const noexcept
+{
+    return nodes_.empty() ? Chosen{} : descend(0, seen_from(receiver), u);
+}
+
+LampTree::Chosen LampTree::descend(std::uint32_t from, const Seen& seen, double u) const noexcept
+{
     double probability = 1;
     std::uint32_t at = from;
-    while (nodes_[at].right != 0) {
-        const double left = importance(nodes_[at + 1], receiver),
-                     right = importance(nodes_[nodes_[at].right], receiver);
+    while (nodes_[at].child != 0 && !compact(nodes_[at], seen)) {
+        const std::uint32_t child = nodes_[at].child;
+        const double left = importance(nodes_[child], seen), right = importance(nodes_[child + 1], seen);
         if (!(left + right > 0))
             return {};
         const double share = left / (left + right);
         const bool to_left = u < share;
-        u = to_left ? u / share : (u - share) / (1 - share);
-        u = std::clamp(u, 0.0, 0x1.fffffffffffffp-1);
+        u = std::clamp(to_left ? u / share : (u - share) / (1 - share), 0.0, 0x1.fffffffffffffp-1);
         probability *= to_left ? share : right / (left + right);
-        at = to_left ? at + 1 : nodes_[at].right;
+        at = to_left ? child : child + 1;
     }
-    return {nodes_[at].lamp, probability};
+    const Chosen last = within(nodes_[at], u);
+    return {last.lamp, last.probability * probability};
 }
 
 double LampTree::probability(int lamp, const Receiver& receiver) const noexcept
 {
+    if (nodes_.empty())
+        return 0;
+    const Seen seen = seen_from(receiver);
+    const std::uint32_t leaf = leaf_of_[static_cast<std::size_t>(lamp)];
     double probability = 1;
-    std::uint32_t at = leaf_of_[static_cast<std::size_t>(lamp)];
-    while (at != 0 && probability > 0) {
-        const std::uint32_t above = nodes_[at].parent;
-        const double left = importance(nodes_[above + 1], receiver);
-        const double right = importance(nodes_[nodes_[above].right], receiver);
-        const double own = at == above + 1 ? left : right;
+    for (std::uint32_t at = leaf; at != 0; at = nodes_[at].parent) {
+        const std::uint32_t above = nodes_[at].parent, child = nodes_[above].child;
+        if (compact(nodes_[above], seen)) { // the way down ended here, or above
+            probability = share_within(nodes_[above], nodes_[leaf].first);
+            continue;
+        }
+        const double left = importance(nodes_[child], seen), right = importance(nodes_[child + 1], seen);
+        const double own = at == child ? left : right;
         probability *= own > 0 ? own / (left + right) : 0;
-        at = above;
     }
     return probability;
 }
@@ -196,7 +262,7 @@ void LampTree::cut(const Receiver& receiver, std::size_t most, double u, std::ve
     if (nodes_.empty())
         return;
     struct Group {
-        double importance;
+        float importance;
         std::uint32_t node;
     };
     const auto weaker = [](const Group& a, const Group& b) {
@@ -204,12 +270,13 @@ void LampTree::cut(const Receiver& receiver, std::size_t most, double u, std::ve
     };
     thread_local std::vector<Group> groups;
     groups.clear();
+    const Seen seen = seen_from(receiver);
     const auto add = [&](std::uint32_t node) {
-        const double weight = importance(nodes_[node], receiver);
+        const float weight = importance(nodes_[node], seen);
         if (!(weight > 0))
             return;
-        if (nodes_[node].right == 0) {
-            found.push_back({nodes_[node].lamp, 1});
+        if (nodes_[node].child == 0) {
+            found.push_back({static_cast<int>(order_[nodes_[node].first]), 1});
             return;
         }
         groups.push_back({weight, node});
@@ -220,13 +287,13 @@ void LampTree::cut(const Receiver& receiver, std::size_t most, double u, std::ve
         std::pop_heap(groups.begin(), groups.end(), weaker);
         const std::uint32_t node = groups.back().node;
         groups.pop_back();
-        add(node + 1);
-        add(nodes_[node].right);
+        add(nodes_[node].child);
+        add(nodes_[node].child + 1);
     }
     for (const Group& group : groups) {
         u += golden;
         u -= std::floor(u);
-        const Chosen chosen = descend(group.node, receiver, u);
+        const Chosen chosen = descend(group.node, seen, u);
         if (chosen.lamp >= 0)
             found.push_back({chosen.lamp, chosen.probability});
     }

@@ -27,7 +27,7 @@ public:
         double probability = 0;
     };
     /// @param u  [0, 1); neighbouring numbers choose neighbouring lamps
-    Chosen choose(const Receiver& receiver, double u) const noexcept { return descend(0, receiver, u); }
+    Chosen choose(const Receiver& receiver, double u) const noexcept;
     /// Probability with which choose() picks a lamp.
     double probability(int lamp, const Receiver& receiver) const noexcept;
 
@@ -42,22 +42,36 @@ public:
     void cut(const Receiver& receiver, std::size_t most, double u, std::vector<Representative>& found) const;
 
 private:
+    /// Lengths in units of the radius of all lamps together, from their middle; strengths as shares of the whole: so
+    /// that single precision is enough at any place and scale. 64 bytes, two siblings after one another.
     struct Node {
-        Point centre;
-        double radius_m;
-        Direction axis;
-        double cos_spread, sin_spread; ///< cone of the axes of what it holds
-        double cos_emission;           ///< beyond the spread, where no more light leaves
-        double strength;
-        std::uint32_t parent, right; ///< left is the next node; right 0: a leaf
-        int lamp;
+        float x, y, z, radius;
+        float axis_x, axis_y, axis_z;
+        float cos_spread, sin_spread; ///< cone of the axes of what it holds
+        float cos_emission;           ///< beyond the spread, where no more light leaves
+        float strength;
+        std::uint32_t parent, child; ///< first of two; 0: a leaf
+        std::uint32_t first, count;  ///< of its lamps, in order_
+    };
+    /// A receiver in the units of the nodes.
+    struct Seen {
+        float x, y, z, normal_x, normal_y, normal_z;
+        bool transmits;
     };
     struct Builder;
-    double importance(const Node& node, const Receiver& receiver) const noexcept;
-    Chosen descend(std::uint32_t from, const Receiver& receiver, double u) const noexcept;
+    Seen seen_from(const Receiver& receiver) const noexcept;
+    static float importance(const Node& node, const Seen& from) noexcept;
+    static bool compact(const Node& node, const Seen& from) noexcept;
+    Chosen within(const Node& node, double u) const noexcept;
+    double share_within(const Node& node, std::size_t place) const noexcept;
+    Chosen descend(std::uint32_t from, const Seen& seen, double u) const noexcept;
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> leaf_of_; ///< by lamp
+    std::vector<std::uint32_t> order_;    ///< lamps as the leaves hold them
+    std::vector<double> summed_strength_; ///< up to and including each of them
+    std::vector<std::uint32_t> leaf_of_;  ///< by lamp
+    Point middle_;
+    double unit_m_ = 1;
 };
 
 } // namespace lightwell

@@ -33,9 +33,13 @@ Vec3 flat_normal(const FlatEmitter& e, std::size_t triangle)
     return normalized(cross(corner(e, triangle, 1) - a, corner(e, triangle, 2) - a));
 }
 
-bool by_solid_angle(const FlatEmitter& e)
+/// Seen smaller than this (size over distance), solid angle and area are nearly proportional over a flat piece, and a
+/// sample by area is several times cheaper.
+constexpr double least_spherical_size = 0.1;
+
+bool by_solid_angle(const FlatEmitter& e, double seen_size)
 {
-    return e.rectangle || e.summed_area.size() <= most_spherical_triangles;
+    return seen_size >= least_spherical_size && (e.rectangle || e.summed_area.size() <= most_spherical_triangles);
 }
 
 SphericalTriangle seen_triangle(const FlatEmitter& e, std::size_t i, const Point& from)
@@ -66,14 +70,16 @@ WeightedChoice choose_triangle(const FlatEmitter& e, const Point& from, double u
 
 PointOnSource point_by_area(const FlatEmitter& e, UnitSquare u)
 {
+    if (e.rectangle)
+        return {corner(e, 0, 0) + (corner(e, 0, 1) - corner(e, 0, 0)) * u.u + (corner(e, 0, 2) - corner(e, 0, 0)) * u.v,
+                flat_normal(e, 0)};
     const auto [at, share, left] = choose(e.summed_area.data(), e.summed_area.size(), u.u);
     return {triangle_by_area(corner(e, at, 0), corner(e, at, 1), corner(e, at, 2), {left, u.v}), flat_normal(e, at)};
 }
 
-PointOnSource point_by_area(const RingEmitter& e, UnitSquare u)
+PointOnSource point_by_area(const RingEmitter& e, const Frame& frame, UnitSquare u)
 {
     const Ring& ring = e.ring;
-    const Frame frame = frame_about(ring.normal);
     if (ring.inner_radius == 0) { // keeps neighbours together, which a straight edge of a shadow rewards
         const DiscPoint p = uniform_disc(u);
         return {ring.centre + (frame.x * p.x + frame.y * p.y) * ring.outer_radius, ring.normal};
@@ -121,7 +127,8 @@ SourceSample sphere_sample(const Sphere& sphere, const Point& from, UnitSquare u
 } // namespace
 
 LocalSource::LocalSource(Shape shape, const Material& material)
-    : shape_(std::move(shape)), material_(&material), strength_(photopic(emitted_radiance(material)))
+    : shape_(std::move(shape)), material_(&material), radiance_(emitted_radiance(material)),
+      strength_(photopic(radiance_))
 {
     Box& box = box_;
     if ((beam_ = std::get_if<Spotlight>(&material)) != nullptr) {
@@ -174,7 +181,7 @@ double LocalSource::potential(const Point& at, const Direction& normal, bool tra
 {
     const Vec3 to_centre = centre_ - at;
     const double squared = dot(to_centre, to_centre), distance = std::sqrt(squared);
-    if (beam_ != nullptr && !in_beam(to_centre, distance))
+    if (beam_ != nullptr && !in_beam(to_centre, distance, 1))
         return 0;
     double leaving = 1;
     if (flat_) {
@@ -191,16 +198,19 @@ double LocalSource::potential(const Point& at, const Direction& normal, bool tra
     return strength_ * std::fmin(pi, arriving * leaving * area_m2_ / std::fmax(squared, 1e-300));
 }
 
-/// Whether any point of the source may send its beam along -to_centre: the source's own size widens the cone.
-bool LocalSource::in_beam(const Vec3& to_centre, double distance) const noexcept
+/// Whether -to_centre lies in the beam when its cone is made wider, or narrower, by the size of the source.
+/// @param widened  1: some point of the source may send its beam there; -1: every point does
+bool LocalSource::in_beam(const Vec3& to_centre, double distance, int widened) const noexcept
 {
     if (!(distance > radius_m_))
-        return true;
-    const double sine = radius_m_ / distance, cosine = std::sqrt(1 - sine * sine);
+        return widened > 0;
+    const double sine = widened * radius_m_ / distance, cosine = std::sqrt(1 - sine * sine);
     const double sine_sum = sin_half_beam_ * cosine + cos_half_beam_ * sine;
+    const double least = cos_half_beam_ * cosine - sin_half_beam_ * sine;
+    if (sine_sum <= 0) // beyond pi, or below 0
+        return widened > 0;
     constexpr double rounding = 1e-12;
-    return sine_sum <= 0 ||
-           -dot(aim_, to_centre) >= distance * (cos_half_beam_ * cosine - sin_half_beam_ * sine - rounding);
+    return -dot(aim_, to_centre) >= distance * (least - widened * rounding);
 }
 
 std::optional<double> LocalSource::projected_solid_angle_sr(const Point& at, const Direction& normal) const noexcept
@@ -263,10 +273,12 @@ LocalSource::Reach LocalSource::reach() const noexcept
     return {box, narrow ? aim_ : facing_, narrow ? half_beam_rad_ : flat_ ? pi / 2 : pi, strength_ * area_m2_};
 }
 
-/// How the flat shapes are seen from one point, worked out once for all its samples.
+/// How the source is seen from one point, worked out once for all its samples.
 struct LocalSource::Seen {
     std::optional<SphericalRectangle> rectangle;
-    Direction normal;
+    Frame frame;             ///< of flat shapes
+    double size = 0;         ///< over distance
+    bool whole_beam = false; ///< no point of the source lies outside of its beam
 };
 
 SourceSample LocalSource::sample(const Point& from, UnitSquare u) const noexcept
@@ -279,10 +291,13 @@ SourceSample LocalSource::sample(const Point& from, UnitSquare u) const noexcept
 void LocalSource::sample(const Point& from, const UnitSquare* u, int count, SourceSample* samples) const noexcept
 {
     Seen seen;
-    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat != nullptr && flat->rectangle) {
+    if (flat_)
+        seen.frame = frame_about(facing_);
+    seen.size = seen_size(from);
+    if (const auto* flat = std::get_if<FlatEmitter>(&shape_);
+        flat != nullptr && flat->rectangle && by_solid_angle(*flat, seen.size))
         seen.rectangle.emplace(seen_rectangle(*flat, from));
-        seen.normal = flat_normal(*flat, 0);
-    }
+    seen.whole_beam = beam_ == nullptr || in_beam(centre_ - from, length(centre_ - from), -1);
     for (int i = 0; i < count; ++i)
         samples[i] = sample_seen(seen, from, u[i]);
 }
@@ -294,19 +309,16 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
     const auto by_area = [&](const PointOnSource& p) {
         const Vec3 way = p.point - from;
         s.distance_m = length(way);
-        s.to_light = normalized(way);
+        s.to_light = way / s.distance_m;
         cosine = -dot(p.normal, s.to_light);
         s.density_per_sr = per_solid_angle(area_m2_, s.distance_m, cosine);
     };
     if (const auto* flat = std::get_if<FlatEmitter>(&shape_)) {
         if (seen.rectangle) {
             const SampledDirection d = seen.rectangle->sample(u);
-            s = {d.direction,
-                 plane_distance(seen.normal, corner(*flat, 0, 0) - from, d.direction),
-                 d.density_per_sr,
-                 {}};
-            cosine = -dot(seen.normal, d.direction);
-        } else if (by_solid_angle(*flat)) {
+            s = {d.direction, plane_distance(facing_, corner(*flat, 0, 0) - from, d.direction), d.density_per_sr, {}};
+            cosine = -dot(facing_, d.direction);
+        } else if (!flat->rectangle && by_solid_angle(*flat, seen.size)) {
             const WeightedChoice pick = choose_triangle(*flat, from, u.u);
             const SampledDirection d = seen_triangle(*flat, pick.index, from).sample({pick.left, u.v});
             const Direction normal = flat_normal(*flat, pick.index);
@@ -321,7 +333,7 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
     } else if (const auto* ball = std::get_if<SphereEmitter>(&shape_)) {
         s = sphere_sample(ball->sphere, from, u);
     } else if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
-        by_area(point_by_area(*ring, u));
+        by_area(point_by_area(*ring, seen.frame, u));
     } else if (const auto* cone = std::get_if<ConeEmitter>(&shape_)) {
         by_area(point_by_area(*cone, u));
     }
@@ -329,13 +341,16 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
         s.density_per_sr = 0;
         return s;
     }
-    s.radiance = emitted_towards(*material_, cosine, -s.to_light) * beam_share(*material_, s.distance_m);
+    if (beam_ == nullptr)
+        s.radiance = radiance_;
+    else if (seen.whole_beam || !emitted_towards(*material_, cosine, -s.to_light).is_black())
+        s.radiance = radiance_ * beam_share(*material_, s.distance_m);
     return s;
 }
 
 double LocalSource::density_per_sr(const Point& from, const Direction& direction, const Hit& hit) const noexcept
 {
-    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat && by_solid_angle(*flat)) {
+    if (const auto* flat = std::get_if<FlatEmitter>(&shape_); flat && by_solid_angle(*flat, seen_size(from))) {
         if (flat->rectangle)
             return seen_rectangle(*flat, from).density_per_sr(direction);
         double total = 0;

@@ -75,9 +75,10 @@ private:
     struct Seen;
     bool round() const noexcept { return !std::holds_alternative<FlatEmitter>(shape_); }
     SourceSample sample_seen(const Seen& seen, const Point& from, UnitSquare u) const noexcept;
-    bool in_beam(const Vec3& to_centre, double distance) const noexcept;
+    bool in_beam(const Vec3& to_centre, double distance, int widened) const noexcept;
     Shape shape_;
     const Material* material_;
+    Spectrum radiance_; ///< along the normal
     Box box_;
     Point centre_;
     double radius_m_ = 0; ///< of a sphere about the centre that holds the source

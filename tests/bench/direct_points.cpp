@@ -1,7 +1,8 @@
 // Light straight from lamps and suns at points, by tested shadow rays.
 // Usage: bench_direct_points SCENE.rad POINTS.txt [SETTING=VALUE ...]
 // POINTS.txt has six numbers a line: x y z nx ny nz. Settings are those of DirectSettings (threshold, certainty,
-// subdivision, penumbra_noise, most_rays, most_lamps, adaptive, subdivide, analytic, tree, sampled_remainder), and
+// subdivision, penumbra_noise, most_rays, most_lamps, lamp_groups, adaptive, subdivide, analytic, tree,
+// sampled_remainder), and
 //   passes=N   gathers at every point, averaged (1)
 //   sparse=N   shadow rays at random instead of tested ones, N at a time
 //   seed=N
@@ -59,6 +60,8 @@ bool read_option(Options& o, const char* word)
         s.most_rays = static_cast<int>(value);
     else if (name == "most_lamps")
         s.most_lamps = static_cast<std::size_t>(value);
+    else if (name == "lamp_groups")
+        s.lamp_groups = static_cast<std::size_t>(value);
     else if (name == "passes")
         o.passes = static_cast<int>(value);
     else if (name == "sparse")
