@@ -34,7 +34,7 @@ Forecast forecast_wish(const PlanOptions& options, const Simulation& simulation)
     const EffortWords& effort = options.effort;
     if (!options.grid.empty())
         return forecast(simulation, choose_grid(options.grid, simulation.scene()),
-                        {effort.samples, effort.accuracy, effort.seed, effort.threads});
+                        {effort.samples, effort.accuracy, effort.seed, effort.threads, effort.unbiased, {}});
     const View view = choose_view(options.view, simulation.scene());
     PictureSettings settings{options.size.first, options.size.second, effort.samples, effort.accuracy,
                              effort.seed,        effort.threads,      effort.unbiased};
@@ -56,7 +56,7 @@ Status plan(const PlanOptions& options, std::ostream& out, std::ostream& err)
         catch_interrupts();
         expected = forecast_wish(options, Simulation(std::move(lit.scene)));
         if (options.time_s > 0)
-            offer = {options.time_s, accuracy_within(expected->prediction, expected->items, options.time_s)};
+            offer = {options.time_s, accuracy_within(expected->prediction.model, expected->items, options.time_s)};
     }
     out << (options.json ? plan_json(made, expected, offer) : plan_text(made, expected, offer, options.explain));
     return Status::done;

@@ -65,7 +65,7 @@ void add_stages(std::ostream& out, const Plan& plan, bool explain)
 
 void add_offer(std::ostream& out, const TimeOffer& offer)
 {
-    out << "  " << duration_text(offer.cpu_seconds) << " of CPU time buy a median standard error of "
+    out << "  " << duration_text(offer.cpu_seconds) << " of CPU time: ask for an accuracy of "
         << percent(offer.accuracy) << '\n';
 }
 
@@ -140,7 +140,7 @@ std::string plan_json(const Plan& plan, const std::optional<Forecast>& forecast,
                             {"samples", p.samples},         {"pilot_cpu_seconds", p.pilot_cpu_seconds}};
     }
     if (offer)
-        json["within_time"] = {{"cpu_seconds", offer->cpu_seconds}, {"median_relative_error", offer->accuracy}};
+        json["within_time"] = {{"cpu_seconds", offer->cpu_seconds}, {"accuracy", offer->accuracy}};
     return json.dump(2) + "\n";
 }
 
