@@ -83,14 +83,52 @@ Corner place_in(std::uint16_t bits)
     return best;
 }
 
-Vec3 longest_edge(const std::vector<std::vector<Point>>& outlines)
+/// A rectangle in the plane that holds all corners.
+struct Enclosing {
+    Point corner;
+    Direction x, y;
+    double width = 0, height = 0;
+};
+
+Enclosing enclosing(const std::vector<std::vector<Point>>& outlines, const Direction& normal, const Direction& along)
 {
-    Vec3 longest{};
+    Enclosing r{{}, along, cross(normal, along), 0, 0};
+    const Point origin = outlines.front().front();
+    double low_x = infinity, high_x = -infinity, low_y = infinity, high_y = -infinity;
     for (const std::vector<Point>& loop : outlines)
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            if (const Vec3 edge = loop[(i + 1) % loop.size()] - loop[i]; length(edge) > length(longest))
-                longest = edge;
-    return longest;
+        for (const Point& p : loop) {
+            low_x = std::fmin(low_x, dot(p - origin, r.x));
+            high_x = std::fmax(high_x, dot(p - origin, r.x));
+            low_y = std::fmin(low_y, dot(p - origin, r.y));
+            high_y = std::fmax(high_y, dot(p - origin, r.y));
+        }
+    r.corner = origin + r.x * low_x + r.y * low_y;
+    r.width = high_x - low_x;
+    r.height = high_y - low_y;
+    return r;
+}
+
+/// The smallest along one of the longest edges; without an edge, of no size.
+Enclosing smallest_enclosing(const std::vector<std::vector<Point>>& outlines, const Direction& normal)
+{
+    constexpr std::size_t edges_tried = 16;
+    std::vector<Vec3> edges;
+    for (const std::vector<Point>& loop : outlines)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec3 edge = loop[(i + 1) % loop.size()] - loop[i], flat = edge - normal * dot(edge, normal);
+            if (length(flat) > 0)
+                edges.push_back(flat);
+        }
+    std::stable_sort(edges.begin(), edges.end(), [](const Vec3& a, const Vec3& b) { return length(a) > length(b); });
+    edges.resize(std::min(edges.size(), edges_tried));
+    Enclosing best;
+    for (const Vec3& edge : edges) {
+        const Enclosing r = enclosing(outlines, normal, normalized(edge));
+        constexpr double clearly_smaller = 1 - 1e-6; // else the longer edge decides
+        if (best.width == 0 || r.width * r.height < clearly_smaller * best.width * best.height)
+            best = r;
+    }
+    return best;
 }
 
 /// A point well inside the first outline with area.
@@ -136,33 +174,22 @@ SurfaceChart flat_chart(const std::vector<std::vector<Point>>& outlines, const D
     double area = 0;
     for (const std::vector<Point>& loop : outlines)
         area += length(polygon_area_vector(loop.data(), loop.size()));
-    const Vec3 edge = longest_edge(outlines), flat = edge - normal * dot(edge, normal);
-    if (!(area > 0) || !(length(flat) > 0))
+    const Enclosing box = smallest_enclosing(outlines, normal);
+    if (!(area > 0) || !(box.width > 0 && box.height > 0))
         return chart;
-    const Direction x = normalized(flat), y = cross(normal, x);
-    const Point origin = outlines.front().front();
-    double low_x = infinity, high_x = -infinity, low_y = infinity, high_y = -infinity;
-    for (const std::vector<Point>& loop : outlines)
-        for (const Point& p : loop) {
-            low_x = std::fmin(low_x, dot(p - origin, x));
-            high_x = std::fmax(high_x, dot(p - origin, x));
-            low_y = std::fmin(low_y, dot(p - origin, y));
-            high_y = std::fmax(high_y, dot(p - origin, y));
-        }
-    const double width = high_x - low_x, height = high_y - low_y;
-    chart.columns = texels_along(width, spacing_m);
-    chart.rows = texels_along(height, spacing_m);
+    chart.columns = texels_along(box.width, spacing_m);
+    chart.rows = texels_along(box.height, spacing_m);
     if (static_cast<double>(chart.columns) * chart.rows > most_texels)
-        texels_along(width * height, spacing_m * spacing_m);
-    chart.corner = origin + x * low_x + y * low_y;
-    chart.across = x * width;
-    chart.up = y * height;
+        texels_along(box.width * box.height, spacing_m * spacing_m);
+    chart.corner = box.corner;
+    chart.across = box.x * box.width;
+    chart.up = box.y * box.height;
     Coverage coverage(chart.columns, chart.rows);
     for (const std::vector<Point>& loop : outlines) {
         std::vector<Corner> flat_loop;
         for (const Point& p : loop)
-            flat_loop.push_back(
-                {dot(p - chart.corner, x) / width * chart.columns, dot(p - chart.corner, y) / height * chart.rows});
+            flat_loop.push_back({dot(p - box.corner, box.x) / box.width * chart.columns,
+                                 dot(p - box.corner, box.y) / box.height * chart.rows});
         coverage.add(flat_loop);
     }
     chart.cells.assign(static_cast<std::size_t>(chart.columns) * static_cast<std::size_t>(chart.rows), -1);

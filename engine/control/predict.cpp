@@ -128,12 +128,22 @@ SensorGrid thinned(const SensorGrid& grid)
 PictureSettings reduced(const PictureSettings& settings, int side)
 {
     PictureSettings small = settings;
+    small.region = {}; // its pixels rest on the pre-pass of the whole
     const int longer = std::max(settings.width, settings.height);
     if (longer > side) {
         small.width = std::max(1, settings.width * side / longer);
         small.height = std::max(1, settings.height * side / longer);
     }
     return small;
+}
+
+/// By what a cost grows with `further` times the pixels when it grew by `growth` with `known` times; at most in
+/// proportion.
+double continued(double growth, double known, double further)
+{
+    if (!(known > 1) || !(further > 1))
+        return 1;
+    return std::pow(further, std::clamp(std::log(growth) / std::log(known), 0.0, 1.0));
 }
 
 double pixels_of(const PictureSettings& settings)
@@ -152,7 +162,7 @@ double CostModel::seconds(double accuracy, double items) const noexcept
 {
     const double each =
         std::clamp(samples(accuracy), static_cast<double>(fewest_samples), static_cast<double>(most_samples));
-    return ambient_s(accuracy) * std::pow(items / pilot_items, ambient_growth) + fixed_s + per_sample_s * items * each;
+    return ambient_s(accuracy) + fixed_s + per_sample_s * items * each;
 }
 
 CostModel fit(const std::vector<PilotRun>& runs) noexcept
@@ -163,7 +173,6 @@ CostModel fit(const std::vector<PilotRun>& runs) noexcept
     model.ambient_s = law(before, last, &PilotRun::ambient_s, steepest_work, 0, -1);
     model.samples = law(before, last, &PilotRun::samples, steepest_work, 0, last.samples > fewest_samples ? -2 : 0);
     model.error = law(before, last, &PilotRun::error, 0, steepest_error, 1);
-    model.pilot_items = last.items;
     model.fixed_s = last.fixed_s;
     model.per_sample_s = last.per_sample_s;
     return model;
@@ -197,18 +206,21 @@ Prediction predict(const Simulation& simulation, const View& view, const Picture
             return Outcome{result.samples, result.median_relative_error};
         };
     };
-    Prediction prediction = predict_work(work_of(small), pixels_of(small), pixels_of(settings), settings.accuracy,
-                                         settings.samples, pilot_s, progress);
+    const Tile wanted = wanted_pixels(settings);
+    const double pixels = static_cast<double>(wanted.width) * wanted.height;
+    Prediction prediction =
+        predict_work(work_of(small), pixels_of(small), pixels, settings.accuracy, settings.samples, pilot_s, progress);
     if (pixels_of(smaller) == pixels_of(settings))
         return prediction;
+    // Ambient light costs more in the large picture, by a power of the pixels.
     CostModel& model = prediction.model;
     const PilotRun coarse = measure(work_of(smaller), pixels_of(smaller), model.ambient_s.at, fewest_samples, progress);
     prediction.pilot_cpu_seconds += coarse.seconds();
     if (coarse.ambient_s > 0 && model.ambient_s.value > 0)
-        model.ambient_growth = std::clamp(std::log(model.ambient_s.value / coarse.ambient_s) /
-                                              std::log(pixels_of(small) / pixels_of(smaller)),
-                                          0.0, 1.0);
-    prediction.cpu_seconds = model.seconds(settings.accuracy, pixels_of(settings));
+        model.ambient_s.value *=
+            continued(model.ambient_s.value / coarse.ambient_s, pixels_of(small) / pixels_of(smaller),
+                      pixels_of(settings) / pixels_of(small));
+    prediction.cpu_seconds = model.seconds(settings.accuracy, pixels);
     return prediction;
 }
 

@@ -29,10 +29,9 @@ struct PowerLaw {
 /// Cost and error by accuracy, continued from the two last of a series of pilot runs, each more accurate.
 struct CostModel {
     PowerLaw ambient_s, samples, error; ///< by accuracy
-    double pilot_items = 1;
-    double ambient_growth = 0; ///< exponent by which ambient light costs more with more pixels
     double fixed_s = 0, per_sample_s = 0;
 
+    /// @param items  sensors or pixels whose values are found; ambient light is that of the whole grid or view
     double seconds(double accuracy, double items) const noexcept;
 };
 /// @param runs  at least one, at one number of items

@@ -45,15 +45,6 @@ TEST(CostModel, NoiseInThePilotDoesNotRunAway)
         EXPECT_TRUE(std::isfinite(model.seconds(accuracy, 1e9)));
 }
 
-TEST(CostModel, MorePixelsCostMoreAmbientLightByTheirExponent)
-{
-    CostModel model = fit({made_up(0.04), made_up(0.02)});
-    const double alone = model.seconds(0.02, 100);
-    model.ambient_growth = 0.5;
-    EXPECT_NEAR(model.seconds(0.02, 100), alone, 1e-12);
-    EXPECT_NEAR(model.seconds(0.02, 400) - (0.5 + 1e-6 * 400 * 100), 2 * 1.0, 1e-9);
-}
-
 TEST(AccuracyWithin, IsWhatTheTimeBuys)
 {
     const CostModel model = fit({made_up(0.04), made_up(0.02)});
@@ -118,6 +109,28 @@ TEST(Predict, CostAndErrorOfAMapAreRightWithinAFactorOfTwo)
     EXPECT_LT(expected.cpu_seconds, 2 * reached);
     EXPECT_GT(expected.error, 0.5 * result.median_relative_error);
     EXPECT_LT(expected.error, 2 * result.median_relative_error);
+}
+
+TEST(Predict, CostOfAPictureIsRightWithinAFactorOfTwoAndARegionCostsLess)
+{
+    const Simulation simulation(lamp_room());
+    View view;
+    view.position = {-2, 0, 0};
+    view.direction = {1, 0, 0};
+    PictureSettings settings;
+    settings.width = settings.height = 240;
+    settings.accuracy = 0.02;
+    settings.threads = 1;
+    const Prediction expected = predict(simulation, view, settings, 0.5);
+    const double start = process_cpu_seconds();
+    const PictureResult result = simulation.render(view, settings);
+    const double reached = process_cpu_seconds() - start;
+    EXPECT_GT(expected.cpu_seconds, 0.5 * reached);
+    EXPECT_LT(expected.cpu_seconds, 2 * reached);
+    EXPECT_GT(expected.error, 0.5 * result.median_relative_error);
+    EXPECT_LT(expected.error, 2 * result.median_relative_error);
+    settings.region = {100, 100, 40, 40};
+    EXPECT_LT(predict(simulation, view, settings, 0.5).cpu_seconds, expected.cpu_seconds);
 }
 
 TEST(Predict, TheSamplesThatWereGivenAreTaken)
