@@ -1,6 +1,6 @@
 #include "engine/control/predict.h"
 
-#include "engine/simulate/replicates.h"
+#include "engine/control/stage_clock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,107 +10,171 @@
 namespace lightwell {
 namespace {
 
-/// As many sensors as tell the median error to a tenth.
-constexpr std::size_t pilot_sensors = 64;
-/// The longer side of a pilot picture: its pixels are a few thousand.
-constexpr int pilot_pixels_a_side = 96;
+/// As many sensors as tell the median error to a tenth; where sensors are so many that they share ambient light, as
+/// many as still do.
+constexpr std::size_t few_sensors = 64, sharing_sensors = 2000;
+/// The longer side of a pilot picture, and of the smaller one that tells how ambient light grows with the pixels.
+constexpr int pilot_side = 96, smaller_side = 48;
 /// Pilot runs begin at this many times the wanted accuracy and halve it while time is left.
 constexpr double coarsest_pilot = 8;
-/// Coarser than this says nothing.
-constexpr double coarsest_accuracy = 0.5;
-/// Independent samples 0.5; well stratified ones up to 0.75 (engine/sampling); beyond that the fit is noise.
-constexpr double slowest_rate = 0.5, fastest_rate = 0.75;
+/// Coarser than this says nothing; finer is never reached.
+constexpr double coarsest_accuracy = 0.5, finest_accuracy = 1e-4;
+/// Bounds of exponents by accuracy, beyond which a fit is noise: work grows by the inverse square, well stratified
+/// samples lower the error a little faster than they grow.
+constexpr double steepest_work = -3, steepest_error = 1.5;
+constexpr int fewest_samples = 8;
 constexpr int most_samples = 1 << 20;
 
 struct Outcome {
     int samples;
     double error;
 };
-using Work = std::function<Outcome(double accuracy, int samples)>;
+/// Runs the simulation on the pilot's items.
+using Work = std::function<Outcome(double accuracy, int samples, const Progress& progress)>;
 
-PilotRun measure(const Work& work, double items, double accuracy, int samples)
+PilotRun measure(const Work& work, double items, double accuracy, int samples, const Progress& progress)
 {
-    const double start = process_cpu_seconds();
-    const Outcome outcome = work(accuracy, samples);
-    return {items, static_cast<double>(outcome.samples), outcome.error, process_cpu_seconds() - start};
+    StageClock clock(progress);
+    const Outcome outcome = work(accuracy, samples, clock.progress());
+    clock.stop();
+    PilotRun run{accuracy, items, static_cast<double>(outcome.samples), outcome.error, 0, 0, 0};
+    run.ambient_s = clock.seconds("ambient light");
+    run.fixed_s = clock.seconds("pilot run") + clock.seconds("check");
+    run.per_sample_s = std::fmax(clock.total() - run.ambient_s - run.fixed_s, 0) / (items * run.samples);
+    return run;
 }
 
-/// Samples that a run for `wanted` will choose, from one that was asked for `accuracy`.
-double samples_wanted(const PilotRun& run, double accuracy, double wanted) noexcept
+PowerLaw law(const PilotRun& before, const PilotRun& last, double PilotRun::*what, double low, double high,
+             double usual)
 {
-    // Where the pilot took the fewest samples possible, its error says more than its wish.
-    const double found = run.samples > replicates ? accuracy : std::fmax(run.error, wanted);
-    return std::clamp(run.samples * found * found / (wanted * wanted), static_cast<double>(replicates),
-                      static_cast<double>(most_samples));
+    PowerLaw found{last.accuracy, last.*what, usual};
+    if (before.accuracy > last.accuracy && before.*what > 0 && last.*what > 0)
+        found.exponent =
+            std::clamp(std::log(last.*what / before.*what) / std::log(last.accuracy / before.accuracy), low, high);
+    return found;
 }
 
 /// Coarse runs first, each twice as accurate, until the wish itself or the end of the time.
-Prediction predict_work(const Work& work, double pilot_items, double all_items, double wanted, int samples,
-                        double pilot_s)
+std::vector<PilotRun> series(const Work& work, double items, double wanted, double pilot_s, const Progress& progress)
 {
     std::vector<PilotRun> runs;
-    Prediction prediction;
-    double accuracy = std::fmax(wanted, std::fmin(coarsest_pilot * wanted, coarsest_accuracy));
-    const double first_samples = std::fmin(replicates, samples);
-    int n = static_cast<int>(first_samples);
+    double accuracy = std::fmax(wanted, std::fmin(coarsest_pilot * wanted, coarsest_accuracy)), spent = 0;
     for (;;) {
-        runs.push_back(measure(work, pilot_items, accuracy, samples > 0 ? n : 0));
-        prediction.pilot_cpu_seconds += runs.back().cpu_seconds;
-        prediction.model = fit(runs);
-        const bool there = samples > 0 ? n >= samples : accuracy <= wanted;
-        const double next = samples > 0 ? std::min(4 * n, samples)
-                                        : samples_wanted(runs.back(), accuracy, std::fmax(wanted, accuracy / 2));
-        if (there || prediction.pilot_cpu_seconds + prediction.model.seconds(pilot_items, next) > pilot_s)
-            break;
-        n = std::min(4 * n, samples);
-        accuracy = std::fmax(wanted, accuracy / 2);
+        runs.push_back(measure(work, items, accuracy, 0, progress));
+        spent += runs.back().seconds();
+        const double next = std::fmax(wanted, accuracy / 2);
+        if (accuracy <= wanted || spent + fit(runs).seconds(next, items) > pilot_s)
+            return runs;
+        accuracy = next;
     }
-    const double most = samples > 0 ? samples : samples_wanted(runs.back(), accuracy, wanted);
-    prediction.samples = static_cast<int>(std::lround(most));
-    prediction.cpu_seconds = prediction.model.seconds(all_items, most);
-    prediction.error = prediction.model.error(most);
+}
+
+Prediction predict_accuracy(const Work& work, double pilot_items, double all_items, double wanted, double pilot_s,
+                            const Progress& progress)
+{
+    const std::vector<PilotRun> runs = series(work, pilot_items, wanted, pilot_s, progress);
+    Prediction prediction;
+    for (const PilotRun& run : runs)
+        prediction.pilot_cpu_seconds += run.seconds();
+    prediction.model = fit(runs);
+    prediction.samples = static_cast<int>(std::lround(prediction.model.samples(wanted)));
+    prediction.error = prediction.model.error(wanted);
+    prediction.cpu_seconds = prediction.model.seconds(wanted, all_items);
     return prediction;
 }
 
-/// Every n-th sensor, from the middle of its stretch.
+/// With the samples given: few of them first.
+Prediction predict_samples(const Work& work, double pilot_items, double all_items, double accuracy, int samples,
+                           double pilot_s, const Progress& progress)
+{
+    Prediction prediction;
+    PilotRun first = measure(work, pilot_items, accuracy, std::min(fewest_samples, samples), progress), last = first;
+    prediction.pilot_cpu_seconds = first.seconds();
+    while (last.samples < samples && prediction.pilot_cpu_seconds + 4 * last.seconds() < pilot_s) {
+        last = measure(work, pilot_items, accuracy, std::min(4 * static_cast<int>(last.samples), samples), progress);
+        prediction.pilot_cpu_seconds += last.seconds();
+    }
+    double rate = 0.5; // of independent samples
+    if (last.samples > first.samples && first.error > 0 && last.error > 0)
+        rate = std::clamp(std::log(first.error / last.error) / std::log(last.samples / first.samples), 0.0, 0.75);
+    prediction.model = fit({last});
+    prediction.model.samples = {accuracy, static_cast<double>(samples), 0};
+    prediction.model.error = {accuracy, last.error * std::pow(last.samples / samples, rate), 0};
+    prediction.samples = samples;
+    prediction.error = prediction.model.error.value;
+    prediction.cpu_seconds = prediction.model.seconds(accuracy, all_items);
+    return prediction;
+}
+
+Prediction predict_work(const Work& work, double pilot_items, double all_items, double accuracy, int samples,
+                        double pilot_s, const Progress& progress)
+{
+    return samples > 0 ? predict_samples(work, pilot_items, all_items, accuracy, samples, pilot_s, progress)
+                       : predict_accuracy(work, pilot_items, all_items, accuracy, pilot_s, progress);
+}
+
+/// Evenly spread sensors, from the middle of their stretch.
 SensorGrid thinned(const SensorGrid& grid)
 {
-    if (grid.sensors.size() <= pilot_sensors)
+    const std::size_t wanted = grid.sensors.size() < sharing_sensors ? few_sensors : sharing_sensors;
+    if (grid.sensors.size() <= wanted)
         return grid;
     SensorGrid thin{grid.name, {}, 0, 0, {}, grid.spacing_m};
-    for (std::size_t i = 0; i < pilot_sensors; ++i)
-        thin.sensors.push_back(grid.sensors[(2 * i + 1) * grid.sensors.size() / (2 * pilot_sensors)]);
+    for (std::size_t i = 0; i < wanted; ++i)
+        thin.sensors.push_back(grid.sensors[(2 * i + 1) * grid.sensors.size() / (2 * wanted)]);
     return thin;
+}
+
+PictureSettings reduced(const PictureSettings& settings, int side)
+{
+    PictureSettings small = settings;
+    small.region = {}; // its pixels rest on the pre-pass of the whole
+    const int longer = std::max(settings.width, settings.height);
+    if (longer > side) {
+        small.width = std::max(1, settings.width * side / longer);
+        small.height = std::max(1, settings.height * side / longer);
+    }
+    return small;
+}
+
+/// By what a cost grows with `further` times the pixels when it grew by `growth` with `known` times; at most in
+/// proportion.
+double continued(double growth, double known, double further)
+{
+    if (!(known > 1) || !(further > 1))
+        return 1;
+    return std::pow(further, std::clamp(std::log(growth) / std::log(known), 0.0, 1.0));
+}
+
+double pixels_of(const PictureSettings& settings)
+{
+    return static_cast<double>(settings.width) * settings.height;
 }
 
 } // namespace
 
-double CostModel::seconds(double items, double samples) const noexcept
+double PowerLaw::operator()(double x) const noexcept
 {
-    return fixed_s + per_sample_s * items * samples;
+    return value * std::pow(x / at, exponent);
 }
 
-double CostModel::error(double samples) const noexcept
+double CostModel::seconds(double accuracy, double items) const noexcept
 {
-    return error_at_one * std::pow(samples, -rate);
+    const double each =
+        std::clamp(samples(accuracy), static_cast<double>(fewest_samples), static_cast<double>(most_samples));
+    return ambient_s(accuracy) + fixed_s + per_sample_s * items * each;
 }
 
 CostModel fit(const std::vector<PilotRun>& runs) noexcept
 {
-    CostModel model;
     const PilotRun& last = runs.back();
-    const auto fewest = std::min_element(runs.begin(), runs.end(),
-                                         [](const PilotRun& a, const PilotRun& b) { return a.samples < b.samples; });
-    if (fewest->samples < last.samples) {
-        model.per_sample_s = (last.cpu_seconds - fewest->cpu_seconds) / (last.samples - fewest->samples) / last.items;
-        if (last.error > 0 && fewest->error > 0)
-            model.rate = std::clamp(std::log(fewest->error / last.error) / std::log(last.samples / fewest->samples),
-                                    slowest_rate, fastest_rate);
-    }
-    if (!(model.per_sample_s > 0))
-        model.per_sample_s = last.cpu_seconds / (last.samples * last.items);
-    model.fixed_s = std::fmax(0, last.cpu_seconds - model.per_sample_s * last.samples * last.items);
-    model.error_at_one = last.error * std::pow(last.samples, model.rate);
+    const PilotRun& before = runs[runs.size() > 1 ? runs.size() - 2 : 0];
+    CostModel model;
+    model.ambient_s = law(before, last, &PilotRun::ambient_s, steepest_work, 0, -1);
+    model.samples = law(before, last, &PilotRun::samples, steepest_work, 0, last.samples > fewest_samples ? -2 : 0);
+    model.error = law(before, last, &PilotRun::error, 0, steepest_error, 1);
+    model.fixed_s = last.fixed_s;
+    model.per_sample_s = last.per_sample_s;
     return model;
 }
 
@@ -118,42 +182,56 @@ Prediction predict(const Simulation& simulation, const SensorGrid& grid, const G
                    const Progress& progress)
 {
     const SensorGrid thin = thinned(grid);
-    const Work work = [&](double accuracy, int samples) {
+    const Work work = [&](double accuracy, int samples, const Progress& told) {
         GridSettings coarse = settings;
         coarse.accuracy = accuracy;
         coarse.samples = samples;
-        const GridResult result = simulation.illuminance(thin, coarse, progress);
+        const GridResult result = simulation.illuminance(thin, coarse, told);
         return Outcome{result.samples, result.median_relative_error};
     };
     return predict_work(work, static_cast<double>(thin.sensors.size()), static_cast<double>(grid.sensors.size()),
-                        settings.accuracy, settings.samples, pilot_s);
+                        settings.accuracy, settings.samples, pilot_s, progress);
 }
 
 Prediction predict(const Simulation& simulation, const View& view, const PictureSettings& settings, double pilot_s,
                    const Progress& progress)
 {
-    PictureSettings small = settings;
-    const int longer = std::max(settings.width, settings.height);
-    if (longer > pilot_pixels_a_side) {
-        small.width = std::max(1, settings.width * pilot_pixels_a_side / longer);
-        small.height = std::max(1, settings.height * pilot_pixels_a_side / longer);
-    }
-    const Work work = [&](double accuracy, int samples) {
-        PictureSettings coarse = small;
-        coarse.accuracy = accuracy;
-        coarse.samples = samples;
-        const PictureResult result = simulation.render(view, coarse, progress);
-        return Outcome{result.samples, result.median_relative_error};
+    const PictureSettings small = reduced(settings, pilot_side), smaller = reduced(settings, smaller_side);
+    const auto work_of = [&](const PictureSettings& size) -> Work {
+        return [&simulation, &view, size](double accuracy, int samples, const Progress& told) {
+            PictureSettings coarse = size;
+            coarse.accuracy = accuracy;
+            coarse.samples = samples;
+            const PictureResult result = simulation.render(view, coarse, told);
+            return Outcome{result.samples, result.median_relative_error};
+        };
     };
-    const auto pixels = [](const PictureSettings& s) { return static_cast<double>(s.width) * s.height; };
-    return predict_work(work, pixels(small), pixels(settings), settings.accuracy, settings.samples, pilot_s);
+    const Tile wanted = wanted_pixels(settings);
+    const double pixels = static_cast<double>(wanted.width) * wanted.height;
+    Prediction prediction =
+        predict_work(work_of(small), pixels_of(small), pixels, settings.accuracy, settings.samples, pilot_s, progress);
+    if (pixels_of(smaller) == pixels_of(settings))
+        return prediction;
+    // Ambient light costs more in the large picture, by a power of the pixels.
+    CostModel& model = prediction.model;
+    const PilotRun coarse = measure(work_of(smaller), pixels_of(smaller), model.ambient_s.at, fewest_samples, progress);
+    prediction.pilot_cpu_seconds += coarse.seconds();
+    if (coarse.ambient_s > 0 && model.ambient_s.value > 0)
+        model.ambient_s.value *=
+            continued(model.ambient_s.value / coarse.ambient_s, pixels_of(small) / pixels_of(smaller),
+                      pixels_of(settings) / pixels_of(small));
+    prediction.cpu_seconds = model.seconds(settings.accuracy, pixels);
+    return prediction;
 }
 
-double accuracy_within(const Prediction& prediction, double items, double cpu_seconds) noexcept
+double accuracy_within(const CostModel& model, double items, double cpu_seconds) noexcept
 {
-    const CostModel& model = prediction.model;
-    const double samples = (cpu_seconds - model.fixed_s) / (model.per_sample_s * items);
-    return model.error(std::clamp(samples, static_cast<double>(replicates), static_cast<double>(most_samples)));
+    double fine = finest_accuracy, coarse = coarsest_accuracy;
+    for (int step = 0; step < 50; ++step) {
+        const double middle = std::sqrt(fine * coarse);
+        (model.seconds(middle, items) > cpu_seconds ? fine : coarse) = middle;
+    }
+    return coarse;
 }
 
 double process_cpu_seconds() noexcept

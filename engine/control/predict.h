@@ -7,25 +7,34 @@
 
 namespace lightwell {
 
-/// One run on a small part of the work: how many sensors or pixels, how well, at what cost.
+/// One run on a part of the work: how many sensors or pixels, how well, and where its CPU time went.
 struct PilotRun {
-    double items = 0;   ///< sensors or pixels
-    double samples = 0; ///< of each
-    double error = 0;   ///< median relative standard error
-    double cpu_seconds = 0;
+    double accuracy = 0;     ///< asked for
+    double items = 0;        ///< sensors or pixels
+    double samples = 0;      ///< of each
+    double error = 0;        ///< median relative standard error reached
+    double ambient_s = 0;    ///< for ambient light, before any value
+    double fixed_s = 0;      ///< choosing the samples, checking the bias
+    double per_sample_s = 0; ///< one sample of one sensor or pixel
+
+    double seconds() const noexcept { return ambient_s + fixed_s + per_sample_s * items * samples; }
 };
 
-/// Cost and error as functions of the samples, fitted to pilot runs: seconds = fixed + per_sample * items * samples,
-/// error = error_at_one * samples^-rate.
+/// value * (x / at)^exponent.
+struct PowerLaw {
+    double at = 1, value = 0, exponent = 0;
+    double operator()(double x) const noexcept;
+};
+
+/// Cost and error by accuracy, continued from the two last of a series of pilot runs, each more accurate.
 struct CostModel {
+    PowerLaw ambient_s, samples, error; ///< by accuracy
     double fixed_s = 0, per_sample_s = 0;
-    double error_at_one = 0, rate = 0.5;
 
-    double seconds(double items, double samples) const noexcept;
-    double error(double samples) const noexcept;
+    /// @param items  sensors or pixels whose values are found; ambient light is that of the whole grid or view
+    double seconds(double accuracy, double items) const noexcept;
 };
-/// @param runs  at least one; of two with different samples the rate of the error is found, within what stratified
-///              samples can do
+/// @param runs  at least one, at one number of items
 CostModel fit(const std::vector<PilotRun>& runs) noexcept;
 
 /// What a run is expected to take and to reach.
@@ -38,7 +47,7 @@ struct Prediction {
 };
 
 /// What pilot runs may take at most, roughly, CPU seconds.
-inline constexpr double usual_pilot_s = 1;
+inline constexpr double usual_pilot_s = 2;
 
 /// @throws InputError as the simulation does; Cancelled
 Prediction predict(const Simulation& simulation, const SensorGrid& grid, const GridSettings& settings,
@@ -46,8 +55,10 @@ Prediction predict(const Simulation& simulation, const SensorGrid& grid, const G
 Prediction predict(const Simulation& simulation, const View& view, const PictureSettings& settings,
                    double pilot_s = usual_pilot_s, const Progress& progress = {});
 
-/// The accuracy that a number of CPU seconds buys; the model of a prediction for the same grid or view.
-double accuracy_within(const Prediction& prediction, double items, double cpu_seconds) noexcept;
+/// The accuracy to ask for so that a run takes this many CPU seconds; the coarsest useful one when even that takes
+/// longer.
+/// @param model  of the same grid or view
+double accuracy_within(const CostModel& model, double items, double cpu_seconds) noexcept;
 
 /// CPU seconds of this process so far, all threads.
 double process_cpu_seconds() noexcept;

@@ -41,6 +41,14 @@ public:
     void omissions();
 
 private:
+    std::string weakening() const
+    {
+        if (plan_.surroundings)
+            return fmt::format("each bounce keeps {}", percent(plan_.surroundings->kept_per_bounce));
+        return fmt::format("mean reflectance {:.2f}, highest {:.2f}", needs_.mean_reflectance,
+                           needs_.highest_reflectance);
+    }
+
     Plan& plan_;
     const SceneNeeds& needs_;
 };
@@ -99,8 +107,7 @@ void Planner::scattering()
              "no translucent surface");
     const bool diffuse = needs_.diffuse_reflection || needs_.diffuse_transmission;
     add(StageKind::interreflection, diffuse,
-        diffuse ? fmt::format("mean reflectance {:.2f}, highest {:.2f}: after {} bounces less than {} is left",
-                              needs_.mean_reflectance, needs_.highest_reflectance, plan_.bounces,
+        diffuse ? fmt::format("{}: after {} bounces less than {} is left", weakening(), plan_.bounces,
                               percent(plan_.wish.accuracy))
                 : "no diffuse surface");
     add(StageKind::patterns, needs_.patterned,
@@ -150,7 +157,7 @@ std::string to_text(const Usage& usage)
     return counted(usage.surfaces, "surface", "surfaces") + fmt::format(", {:.3g} m2", usage.area_m2);
 }
 
-Plan plan_for(const SceneNeeds& needs, const PlanWish& wish)
+Plan plan_for(const SceneNeeds& needs, const PlanWish& wish, const std::optional<Surroundings>& surroundings)
 {
     if (!(wish.accuracy > 0 && wish.accuracy < 1))
         throw InputError("plan", "accuracy is " + shortest(wish.accuracy) + ", expected above 0 and below 1",
@@ -158,7 +165,9 @@ Plan plan_for(const SceneNeeds& needs, const PlanWish& wish)
     Plan plan;
     plan.needs = needs;
     plan.wish = wish;
-    plan.bounces = bounces_that_matter(needs.mean_reflectance, wish.accuracy);
+    plan.surroundings = surroundings;
+    plan.bounces =
+        bounces_that_matter(surroundings ? surroundings->kept_per_bounce : needs.mean_reflectance, wish.accuracy);
     plan.channels = needs.grey ? 1 : 3;
     Planner planner(plan);
     planner.sources();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "engine/plan/needs.h"
+#include "engine/plan/surroundings.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,12 +54,14 @@ struct Plan {
     int bounces = 0;  ///< beyond which less than the accuracy is left; paths are ended by roulette, not there
     int channels = 3; ///< 1 when nothing in the scene has a colour
     PlanWish wish;
+    std::optional<Surroundings> surroundings; ///< of the places that are asked about
 
     bool uses(StageKind kind) const noexcept { return stages[static_cast<std::size_t>(kind)].on; }
 };
 
+/// @param surroundings  where known, decide how many bounces matter; else the mean reflectance by area does
 /// @throws InputError for an accuracy outside (0, 1)
-Plan plan_for(const SceneNeeds& needs, const PlanWish& wish);
+Plan plan_for(const SceneNeeds& needs, const PlanWish& wish, const std::optional<Surroundings>& surroundings = {});
 
 /// "18 surfaces, 34.5 m2": for messages.
 std::string to_text(const Usage& usage);

@@ -53,6 +53,7 @@ Status parse_and_run(const std::vector<std::string>& arguments)
     add_materials(app, status);
     add_render(app, status);
     add_illuminance(app, status);
+    add_bake(app, status);
     add_plan(app, status);
     add_run(app, status);
     add_validate(app, status);

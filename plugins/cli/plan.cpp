@@ -34,12 +34,28 @@ Forecast forecast_wish(const PlanOptions& options, const Simulation& simulation)
     const EffortWords& effort = options.effort;
     if (!options.grid.empty())
         return forecast(simulation, choose_grid(options.grid, simulation.scene()),
-                        {effort.samples, effort.accuracy, effort.seed, effort.threads});
+                        {effort.samples, effort.accuracy, effort.seed, effort.threads, effort.unbiased, {}});
     const View view = choose_view(options.view, simulation.scene());
     PictureSettings settings{options.size.first, options.size.second, effort.samples, effort.accuracy,
                              effort.seed,        effort.threads,      effort.unbiased};
     fit_to_view(view, settings);
     return forecast(simulation, view, settings);
+}
+
+/// Where a picture or a map would look from; nothing without one.
+std::vector<Lookout> lookouts(const PlanOptions& options, const Scene& scene)
+{
+    std::vector<Lookout> places;
+    if (!options.grid.empty()) {
+        constexpr double lift = 1e-9; // of the scene's size: off a surface that holds the sensor
+        const double lift_m = lift * bounds(scene).diagonal();
+        for (const Sensor& sensor : choose_grid(options.grid, scene).sensors)
+            places.push_back({sensor.position, sensor.normal, lift_m});
+    } else if (!options.view.empty()) {
+        const View view = choose_view(options.view, scene);
+        places.push_back({view.position, view.direction, 0});
+    }
+    return places;
 }
 
 Status plan(const PlanOptions& options, std::ostream& out, std::ostream& err)
@@ -49,14 +65,18 @@ Status plan(const PlanOptions& options, std::ostream& out, std::ostream& err)
     validate(lit.scene);
     PlanWish wish;
     wish.accuracy = options.effort.accuracy;
-    const Plan made = plan_for(needs_of(lit.scene), wish);
+    const std::vector<Lookout> places = lookouts(options, lit.scene);
+    std::optional<Surroundings> surroundings;
+    if (!places.empty())
+        surroundings = look_around(lit.scene, RayQueries(lit.scene), places);
+    const Plan made = plan_for(needs_of(lit.scene), wish, surroundings);
     std::optional<Forecast> expected;
     std::optional<TimeOffer> offer;
-    if (!options.view.empty() || !options.grid.empty()) {
+    if (!places.empty()) {
         catch_interrupts();
         expected = forecast_wish(options, Simulation(std::move(lit.scene)));
         if (options.time_s > 0)
-            offer = {options.time_s, accuracy_within(expected->prediction, expected->items, options.time_s)};
+            offer = {options.time_s, accuracy_within(expected->prediction.model, expected->items, options.time_s)};
     }
     out << (options.json ? plan_json(made, expected, offer) : plan_text(made, expected, offer, options.explain));
     return Status::done;

@@ -42,6 +42,10 @@ void add_scene(std::ostream& out, const Plan& plan)
     }
     if (n.wide_sources > 0)
         out << between << (n.patterned ? "sky of varying brightness" : "uniform sky");
+    if (plan.surroundings)
+        out << "\naround    "
+            << (plan.surroundings->enclosed() ? "enclosed" : percent(plan.surroundings->open_share) + " open") << ", "
+            << number(plan.surroundings->distance_m) << " m to what is met";
     out << "\ncolour    " << (plan.channels == 1 ? "all grey: one channel would do" : "three channels") << '\n';
 }
 
@@ -65,7 +69,7 @@ void add_stages(std::ostream& out, const Plan& plan, bool explain)
 
 void add_offer(std::ostream& out, const TimeOffer& offer)
 {
-    out << "  " << duration_text(offer.cpu_seconds) << " of CPU time buy a median standard error of "
+    out << "  " << duration_text(offer.cpu_seconds) << " of CPU time: ask for an accuracy of "
         << percent(offer.accuracy) << '\n';
 }
 
@@ -125,6 +129,10 @@ std::string plan_json(const Plan& plan, const std::optional<Forecast>& forecast,
 {
     nlohmann::ordered_json json;
     json["needs"] = json_of(plan.needs);
+    if (plan.surroundings)
+        json["surroundings"] = {{"open_share", plan.surroundings->open_share},
+                                {"kept_per_bounce", plan.surroundings->kept_per_bounce},
+                                {"distance_m", plan.surroundings->distance_m}};
     json["bounces"] = plan.bounces;
     json["channels"] = plan.channels;
     json["stages"] = nlohmann::ordered_json::array();
@@ -140,7 +148,7 @@ std::string plan_json(const Plan& plan, const std::optional<Forecast>& forecast,
                             {"samples", p.samples},         {"pilot_cpu_seconds", p.pilot_cpu_seconds}};
     }
     if (offer)
-        json["within_time"] = {{"cpu_seconds", offer->cpu_seconds}, {"median_relative_error", offer->accuracy}};
+        json["within_time"] = {{"cpu_seconds", offer->cpu_seconds}, {"accuracy", offer->accuracy}};
     return json.dump(2) + "\n";
 }
 

@@ -14,6 +14,7 @@ void add_import(CLI::App& app, Status& status);
 void add_materials(CLI::App& app, Status& status);
 void add_render(CLI::App& app, Status& status);
 void add_illuminance(CLI::App& app, Status& status);
+void add_bake(CLI::App& app, Status& status);
 void add_plan(CLI::App& app, Status& status);
 void add_run(CLI::App& app, Status& status);
 void add_validate(CLI::App& app, Status& status);

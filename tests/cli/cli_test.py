@@ -409,6 +409,75 @@ class Interruption(Case):
         self.assertEqual(done.returncode, DONE, done.stderr)
 
 
+class Plan(Case):
+    def test_a_plain_room_needs_lamps_and_interreflection_alone(self):
+        plan = json.loads(self.expect(DONE, "plan", "room.rad", "--json").stdout)
+        self.assertEqual([s["stage"] for s in plan["stages"] if s["on"]], ["lamps", "interreflection"])
+        self.assertEqual(plan["needs"]["surfaces"], 7)
+        self.assertAlmostEqual(plan["needs"]["lamp_flux_lm"], math.pi * 179 * 20, places=6)
+        self.assertNotIn("expected", plan)
+        text = self.expect(DONE, "plan", "room.rad", "--explain").stdout
+        self.assertIn("virtual sources: no flat mirror", text)
+        self.assertNotIn("virtual sources", self.expect(DONE, "plan", "room.rad").stdout)
+
+    def test_the_prediction_stands_beside_what_was_reached(self):
+        self.expect(DONE, "illuminance", "room.rad", "--grid", "plane:0.8,0,0,4,3/0.25", "-o", "e.csv", "--accuracy", "2%",
+                    "--plan", says=["expected, grid plane:0.8,0,0,4,3/0.25, 192 sensors"])
+        record = json.loads((self.folder / "e.run.json").read_text())
+        for value in ("cpu_seconds", "median_relative_error"):
+            self.assertGreater(record["predicted"][value], 0.25 * record[value])
+            self.assertLess(record["predicted"][value], 4 * record[value])
+
+    def test_more_time_buys_more_accuracy(self):
+        def offer(seconds):
+            done = self.expect(DONE, "plan", "room.rad", "--view", VIEW, "--size", "64x64", "--within", seconds, "--json")
+            return json.loads(done.stdout)["within_time"]["accuracy"]
+        self.assertLess(offer("100"), offer("1"))
+
+    def test_words_that_mean_nothing_are_refused(self):
+        self.expect(USAGE, "plan")
+        self.expect(USAGE, "plan", "room.rad", "--view", VIEW, "--grid", "plane:0.8,0,0,4,3/1")
+        self.expect(USAGE, "plan", "room.rad", "--within", "-1")
+        self.expect(BAD_INPUT, "plan", "none.rad", says=["none.rad"])
+        self.expect(BAD_INPUT, "plan", "room.rad", "--grid", "roof:1", says=["roof:1"])
+
+
+class Bake(Case):
+    def test_a_closed_sphere_has_the_illuminance_of_the_geometric_series(self):
+        """A lamp of radius r in the middle of a sphere of radius R: E = pi L f / (1 - rho (1 - f)), f = (r / R)^2."""
+        self.write("s.rad", "void plastic wall 0 0 5 0.5 0.5 0.5 0 0\nvoid light lamp 0 0 3 100 100 100\n"
+                   "wall bubble shell 0 0 4 0 0 0 1\nlamp sphere bulb 0 0 4 0 0 0 0.1\n")
+        self.expect(DONE, "bake", "s.rad", "--surface", "wall", "--side", "front", "--spacing", "0.3", "--accuracy", "1%",
+                    "-o", "maps")
+        maps = json.loads((self.folder / "maps" / "maps.json").read_text())
+        expected = 179 * math.pi * 100 * 0.01 / (1 - 0.5 * 0.99)
+        self.assertLess(abs(maps["layers"]["wall"]["front"]["mean_lx"] / expected - 1), 0.01)
+        self.assertAlmostEqual(maps["layers"]["wall"]["area_m2"], 4 * math.pi, places=6)
+        self.assertNotIn("back", maps["layers"]["wall"])
+
+    def test_every_surface_has_a_picture_that_the_table_names(self):
+        done = self.expect(DONE, "bake", "room.rad", "--all", "--spacing", "0.5", "--samples", "16", "-o", "maps")
+        maps = json.loads((self.folder / "maps" / "maps.json").read_text())
+        self.assertEqual(len(maps["surfaces"]), 7)
+        floor = next(s for s in maps["surfaces"] if s["surface"] == "floor")
+        self.assertEqual((floor["layer"], floor["columns"], floor["rows"], floor["kind"]), ("wall", 8, 6, "plane"))
+        self.assertAlmostEqual(floor["area_m2"], 12)
+        self.assertEqual(floor["back"]["maximum_lx"], 0, "no light from under the floor")
+        self.assertGreater(floor["front"]["minimum_lx"], 0)
+        for surface in maps["surfaces"]:
+            self.assertEqual((self.folder / "maps" / surface["file"]).read_bytes()[:4], EXR_MAGIC)
+        self.assertEqual([line.split("\t")[0] for line in done.stdout.splitlines()], ["layer", "lamp", "wall"])
+
+    def test_what_cannot_be_baked_is_refused(self):
+        self.expect(BAD_INPUT, "bake", "room.rad", "-o", "maps", says=["--all"])
+        self.expect(BAD_INPUT, "bake", "room.rad", "--all", "--surface", "wall", "-o", "maps", says=["--all"])
+        self.expect(BAD_INPUT, "bake", "room.rad", "--surface", "roof", "-o", "maps", says=["roof"])
+        self.expect(BAD_INPUT, "bake", "room.rad", "--all", "--spacing", "1e-6", "-o", "maps", says=["spacing"])
+        self.expect(BAD_INPUT, "bake", "room.rad", "--all", "-o", "room.rad/maps", says=["room.rad/maps"])
+        self.expect(USAGE, "bake", "room.rad", "--all", "--spacing", "0", "-o", "maps")
+        self.assertEqual(self.files(), ["room.rad"])
+
+
 class Validate(Case):
     def test_values_agree_with_closed_forms_and_a_deliberate_error_does_not(self):
         result = json.loads(self.expect(DONE, "validate", "--case", "cl_sun_disc", "--json").stdout)

@@ -129,6 +129,13 @@ TEST(Plan, MirrorsMakeNoVirtualSourcesWithoutLampsOrWhenSwitchedOff)
     EXPECT_TRUE(plan_for(needs_of(scene), {}).uses(StageKind::virtual_sources));
 }
 
+TEST(Plan, WhatSurroundsThePlacesDecidesHowManyBouncesMatter)
+{
+    const Surroundings bright{0, 0.9, 3};
+    EXPECT_EQ(plan_for(needs_of(plain_room()), {0.01}, bright).bounces, 44);
+    EXPECT_EQ(plan_for(needs_of(plain_room()), {0.01}).bounces, 7);
+}
+
 TEST(Plan, RefusesAnAccuracyThatIsNone)
 {
     for (const double accuracy : {0.0, -1.0, 1.0, std::nan(""), HUGE_VAL})

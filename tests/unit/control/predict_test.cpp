@@ -1,0 +1,150 @@
+#include "engine/control/predict.h"
+#include "engine/control/stage_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lightwell {
+namespace {
+
+/// A run of a made-up simulation: ambient light costs 0.02 / accuracy seconds, a sample 1e-6 s, and 0.04 / accuracy^2
+/// samples bring the error to 0.9 of the accuracy.
+PilotRun made_up(double accuracy)
+{
+    return {accuracy, 100, 0.04 / (accuracy * accuracy), 0.9 * accuracy, 0.02 / accuracy, 0.5, 1e-6};
+}
+
+TEST(CostModel, ContinuesTwoRunsByTheirOwnLaws)
+{
+    const CostModel model = fit({made_up(0.04), made_up(0.02)});
+    EXPECT_NEAR(model.samples(0.01), 400, 1e-9);
+    EXPECT_NEAR(model.error(0.01), 0.009, 1e-12);
+    EXPECT_NEAR(model.ambient_s(0.01), 2, 1e-9);
+    EXPECT_NEAR(model.seconds(0.01, 1000), 2 + 0.5 + 1e-6 * 1000 * 400, 1e-9);
+}
+
+TEST(CostModel, OfOneRunAssumesThatWorkGrowsByTheInverseSquare)
+{
+    const CostModel model = fit({made_up(0.02)});
+    EXPECT_NEAR(model.samples(0.01), 400, 1e-9);
+    EXPECT_NEAR(model.error(0.01), 0.009, 1e-12);
+}
+
+TEST(CostModel, NoiseInThePilotDoesNotRunAway)
+{
+    PilotRun odd = made_up(0.02);
+    odd.samples = 10; // fewer than the coarser run took
+    odd.error = 0.5;  // and worse
+    odd.ambient_s = 1e6;
+    const CostModel model = fit({made_up(0.04), odd});
+    EXPECT_LE(model.samples(0.01), 10 * 8);
+    EXPECT_LE(model.error(0.01), 0.5);
+    EXPECT_LE(model.ambient_s(0.01), 8e6);
+    for (const double accuracy : {1e-4, 0.01, 0.5})
+        EXPECT_TRUE(std::isfinite(model.seconds(accuracy, 1e9)));
+}
+
+TEST(AccuracyWithin, IsWhatTheTimeBuys)
+{
+    const CostModel model = fit({made_up(0.04), made_up(0.02)});
+    for (const double accuracy : {0.01, 0.05, 0.2})
+        EXPECT_NEAR(accuracy_within(model, 1000, model.seconds(accuracy, 1000)), accuracy, 1e-6);
+    EXPECT_NEAR(accuracy_within(model, 1000, 0), 0.5, 1e-6) << "no time: the coarsest";
+    EXPECT_NEAR(accuracy_within(model, 1000, 1e12), 1e-4, 1e-6);
+}
+
+TEST(StageClock, GivesTimeToTheStageThatSpentIt)
+{
+    const Progress silent;
+    StageClock clock(silent);
+    const Progress progress = clock.progress();
+    const auto burn = [](double seconds) {
+        for (const double end = process_cpu_seconds() + seconds; process_cpu_seconds() < end;) {
+        }
+    };
+    burn(0.02); // before the first report: the first stage's
+    progress.tell("ambient light, grid a", 0);
+    burn(0.03);
+    progress.tell("grid a", 0.5);
+    burn(0.01);
+    clock.stop();
+    EXPECT_NEAR(clock.seconds("ambient light"), 0.05, 0.005);
+    EXPECT_NEAR(clock.seconds("grid"), 0.01, 0.005);
+    EXPECT_NEAR(clock.total(), 0.06, 0.007);
+}
+
+/// A floor under a lamp with a shade between: noise, ambient light, and a few seconds for all of it.
+Scene lamp_room()
+{
+    Scene scene;
+    const ModifierId grey = scene.add_material("grey", Plastic{Spectrum::grey(0.6)});
+    const ModifierId lamp = scene.add_material("lamp", Light{Spectrum::grey(20)});
+    scene.root.add_sphere({{0, 0, 0}, 3}, Shape::bubble, grey, "room");
+    scene.root.add_sphere({{0, 0, 1}, 0.4}, Shape::sphere, lamp, "lamp");
+    scene.root.add_ring({{0.2, 0, 0.3}, {0, 0, 1}, 0, 0.3}, grey, "shade");
+    return scene;
+}
+
+SensorGrid line_of_sensors(int count)
+{
+    SensorGrid grid;
+    for (int i = 0; i < count; ++i)
+        grid.sensors.push_back({{-1.5 + 3.0 * i / count, 0.1, -1}, {0, 0, 1}});
+    return grid;
+}
+
+TEST(Predict, CostAndErrorOfAMapAreRightWithinAFactorOfTwo)
+{
+    const Simulation simulation(lamp_room());
+    const SensorGrid grid = line_of_sensors(400);
+    GridSettings settings;
+    settings.accuracy = 0.004;
+    settings.threads = 1;
+    const Prediction expected = predict(simulation, grid, settings, 0.3);
+    const double start = process_cpu_seconds();
+    const GridResult result = simulation.illuminance(grid, settings);
+    const double reached = process_cpu_seconds() - start;
+    EXPECT_GT(expected.cpu_seconds, 0.5 * reached);
+    EXPECT_LT(expected.cpu_seconds, 2 * reached);
+    EXPECT_GT(expected.error, 0.5 * result.median_relative_error);
+    EXPECT_LT(expected.error, 2 * result.median_relative_error);
+}
+
+TEST(Predict, CostOfAPictureIsRightWithinAFactorOfTwoAndARegionCostsLess)
+{
+    const Simulation simulation(lamp_room());
+    View view;
+    view.position = {-2, 0, 0};
+    view.direction = {1, 0, 0};
+    PictureSettings settings;
+    settings.width = settings.height = 240;
+    settings.accuracy = 0.02;
+    settings.threads = 1;
+    const Prediction expected = predict(simulation, view, settings, 0.5);
+    const double start = process_cpu_seconds();
+    const PictureResult result = simulation.render(view, settings);
+    const double reached = process_cpu_seconds() - start;
+    EXPECT_GT(expected.cpu_seconds, 0.5 * reached);
+    EXPECT_LT(expected.cpu_seconds, 2 * reached);
+    EXPECT_GT(expected.error, 0.5 * result.median_relative_error);
+    EXPECT_LT(expected.error, 2 * result.median_relative_error);
+    settings.region = {100, 100, 40, 40};
+    EXPECT_LT(predict(simulation, view, settings, 0.5).cpu_seconds, expected.cpu_seconds);
+}
+
+TEST(Predict, TheSamplesThatWereGivenAreTaken)
+{
+    const Simulation simulation(lamp_room());
+    GridSettings settings;
+    settings.samples = 512;
+    settings.threads = 1;
+    const Prediction expected = predict(simulation, line_of_sensors(100), settings, 0.2);
+    EXPECT_EQ(expected.samples, 512);
+    const GridResult result = simulation.illuminance(line_of_sensors(100), settings);
+    EXPECT_GT(expected.error, 0.5 * result.median_relative_error);
+    EXPECT_LT(expected.error, 2 * result.median_relative_error);
+}
+
+} // namespace
+} // namespace lightwell
