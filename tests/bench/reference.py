@@ -22,6 +22,7 @@ import time
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
+from errors import compared_with
 from program import ROOT, illuminance, run
 from rows import BUILDERS, REFERENCES, build, difference_sky
 from text import LUMENS_PER_WATT, write_points
@@ -108,12 +109,12 @@ def main():
         places = [base.points[index] for index in base.compared]
         write_points(folder / "grid.pts", places)
         values, error, how = estimate(asked, base, folder / "grid.pts")
-    noise = 100 * np.sqrt(np.mean((error / np.maximum(values, 0.01 * values.mean())) ** 2))
+    noise = 100 * np.sqrt(np.mean((error / compared_with(values)) ** 2))
     header = (f"{asked.row}: {COMMANDS[asked.row]}{how}, noise of a point {noise:.2f} %\n"
               "x,y,z,dx,dy,dz,value,standard_error")
     REFERENCES.mkdir(exist_ok=True)
     np.savetxt(REFERENCES / FILES[asked.row], np.column_stack([np.array(places), values, error]), delimiter=",",
-               fmt="%.7g", header=header)
+               fmt="%.9g", header=header)
     print(header)
 
 
