@@ -8,9 +8,14 @@ import numpy as np
 DARKEST_SHARE = 0.01
 
 
+def compared_with(reference):
+    """What the error of each point is relative to."""
+    return np.maximum(reference, DARKEST_SHARE * np.mean(reference))
+
+
 def relative_errors(values, reference):
     values, reference = np.asarray(values, float), np.asarray(reference, float)
-    return (values - reference) / np.maximum(reference, DARKEST_SHARE * reference.mean())
+    return (values - reference) / compared_with(reference)
 
 
 def errors(values, reference, reference_noise=0.0):

@@ -6,9 +6,9 @@
     g                     Lightwell, plain path tracing, 131,072 samples a point and run
     c_blended             Radiance without cache: mirrored suns, 900 divisions, any number of bounces
     c                     the same plus the small difference that the other sky makes, found by itself
-    d, d_point            Radiance, every lamp in 64 parts, a random place in each part
+    d, d_point            bench_exhaustive_spots (to be built first): 8192 places on every lamp; one run is all there is
 
-Each run is kept as a file in --keep, and a call goes on where the last one stopped. Writes references/ROW file with the
+Each run is kept as a file in --keep, and a call goes on where the last one stopped. Writes a file of references/ with the
 columns x,y,z,dx,dy,dz,value,standard error; value without 179 lm/W.
 """
 
@@ -22,16 +22,19 @@ import time
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
-from program import illuminance, run
+from errors import compared_with
+from program import ROOT, illuminance, run
 from rows import BUILDERS, REFERENCES, build, difference_sky
 from text import LUMENS_PER_WATT, write_points
 
 CHANNELS = np.array([0.265, 0.670, 0.065])
 BRUTE = "-u+ -aa 0 -as 0 -lr -24 -lw 1e-8 -ds 0 -dj 1 -dt 0 -dc 1 -dr 2 -st 0 -ss 1 -ab 12 -ad 900"
-PARTS = "-u+ -ab 0 -dt 0 -dc 1 -ds .004 -dj 1 -dr 0 -st 1"
+PLACES = 8192
+EXHAUSTIVE = ROOT / "build/release/tests/bench/bench_exhaustive_spots"
 SAMPLES = 131072
 COMMANDS = {"g": f"lightwell illuminance --samples {SAMPLES}", "c": f"rtrace {BRUTE}", "c_blended": f"rtrace {BRUTE}",
-            "d": f"rtrace {PARTS}", "d_point": f"rtrace {PARTS}"}
+            "d": f"bench_exhaustive_spots, {PLACES} places on each lamp",
+            "d_point": f"bench_exhaustive_spots, {PLACES} places on each lamp"}
 FILES = {"g": "g_line.csv", "c": "c_daylit.csv", "c_blended": "c_blended_daylit.csv", "d": "d_theatre.csv",
          "d_point": "d_point_theatre.csv"}
 
@@ -62,6 +65,15 @@ def difference(row, points):
     return found[0] - found[1]
 
 
+def exhaustive(row, points, keep):
+    """@return  values and standard errors"""
+    keep.mkdir(parents=True, exist_ok=True)
+    file = keep / "exhaustive.txt"
+    if not file.exists():
+        file.write_text(run([EXHAUSTIVE, row.scene, points, PLACES]).demand().output)
+    return np.loadtxt(file).T
+
+
 def kept_runs(row, points, keep, count):
     keep.mkdir(parents=True, exist_ok=True)
     for number in range(1, count + 1):
@@ -70,6 +82,17 @@ def kept_runs(row, points, keep, count):
             np.savetxt(file, one_run(row, points, number), fmt="%.9g")
             print(f"{row.name}: run {number} of {count}", file=sys.stderr)
     return np.array([np.loadtxt(keep / f"run_{number}.txt") for number in range(1, count + 1)])
+
+
+def estimate(asked, row, points):
+    """@return  values, standard errors, and how many runs they come from, in words"""
+    if asked.row.startswith("d"):
+        return *exhaustive(row, points, asked.keep), ""
+    runs = kept_runs(row, points, asked.keep, asked.runs)
+    values, error = runs.mean(axis=0), runs.std(axis=0, ddof=1) / np.sqrt(len(runs))
+    if asked.row == "c":
+        values = values + difference(row, points)
+    return values, error, f", {len(runs)} independent runs"
 
 
 def main():
@@ -85,17 +108,13 @@ def main():
                      with_reference=False)
         places = [base.points[index] for index in base.compared]
         write_points(folder / "grid.pts", places)
-        runs = kept_runs(base, folder / "grid.pts", asked.keep, asked.runs)
-        values = runs.mean(axis=0)
-        error = runs.std(axis=0, ddof=1) / np.sqrt(len(runs))
-        if asked.row == "c":
-            values = values + difference(base, folder / "grid.pts")
-    noise = 100 * np.sqrt(np.mean((error / np.maximum(values, 0.01 * values.mean())) ** 2))
-    header = (f"{asked.row}: {COMMANDS[asked.row]}, {len(runs)} independent runs, noise of a point {noise:.2f} %\n"
+        values, error, how = estimate(asked, base, folder / "grid.pts")
+    noise = 100 * np.sqrt(np.mean((error / compared_with(values)) ** 2))
+    header = (f"{asked.row}: {COMMANDS[asked.row]}{how}, noise of a point {noise:.2f} %\n"
               "x,y,z,dx,dy,dz,value,standard_error")
     REFERENCES.mkdir(exist_ok=True)
     np.savetxt(REFERENCES / FILES[asked.row], np.column_stack([np.array(places), values, error]), delimiter=",",
-               fmt="%.7g", header=header)
+               fmt="%.9g", header=header)
     print(header)
 
 

@@ -9,6 +9,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
+from errors import compared_with
 from text import diffuse, lamp, sphere
 
 RADIOSITY_STEP = 2.3e-4  # of the last extrapolation, relative: the table says so itself
@@ -31,14 +32,16 @@ class Row:
 def read_reference(file):
     """Lines `x,y,z,dx,dy,dz,value[,standard error]` under comments. @return  values, relative noise of a point"""
     table = np.loadtxt(file, delimiter=",", comments="#", ndmin=2)
-    noise = float(np.sqrt(np.mean((table[:, 7] / table[:, 6]) ** 2))) if table.shape[1] > 7 else 0.0
-    return table[:, :6], table[:, 6], noise
+    values = table[:, 6]
+    noise = float(np.sqrt(np.mean((table[:, 7] / compared_with(values)) ** 2))) if table.shape[1] > 7 else 0.0
+    return table[:, :6], values, noise
 
 
 def matching(points, wanted):
     """Index of each wanted place among the points."""
-    places = {tuple(round(value, 6) for value in point[:3]): index for index, point in enumerate(points)}
-    return np.array([places[tuple(round(value, 6) for value in place[:3])] for place in wanted])
+    key = lambda place: tuple(round(float(value), 3) for value in place[:3])  # millimetres: tables have few digits
+    places = {key(point): index for index, point in enumerate(points)}
+    return np.array([places[key(place)] for place in wanted])
 
 
 def _row(name, title, scene, points, file, goals, room_ratio, noise=None):

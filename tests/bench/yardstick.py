@@ -24,7 +24,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 from errors import bias_and_noise, errors, median_errors, seconds_to_reach
 from options import LADDERS, lightwell_ladder, radiance_settings
-from program import illuminance, interpreter_memory_MB, lightwell, run
+from program import illuminance, lightwell, run
 from rows import BUILDERS, build
 from text import LUMENS_PER_WATT, write_points
 
@@ -111,7 +111,7 @@ def do_row(name, asked):
     print("\n" + "\n".join(goals), flush=True)
     RESULTS.mkdir(exist_ok=True)
     kept = {"row": name, "title": row.title, "program": lightwell(), "ladder": asked.ladder, "seeds": asked.seeds,
-            "reference_noise": row.noise, "load_s": load, "interpreter_MB": interpreter_memory_MB(),
+            "reference_noise": row.noise, "load_s": load,
             "goals": goals, "settings": settings}
     (RESULTS / f"{name}.{asked.ladder}.json").write_text(json.dumps(kept, indent=1) + "\n")
 

@@ -4,13 +4,13 @@ import csv
 import dataclasses
 import os
 import pathlib
-import resource
 import signal
 import subprocess
 import sys
 import tempfile
 import time
 
+TIME = "/usr/bin/time"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -38,16 +38,21 @@ def lightwell():
 
 
 def run(command, folder=None, input_file=None, timeout_s=3600.0, environment=None):
-    """Output and errors go through files, so that a child never waits for its reader."""
-    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+    """Output and errors go through files, so that a child never waits for its reader.
+
+    GNU time starts the child where it is installed: the peak memory of a child that this interpreter starts is never
+    below the interpreter's own."""
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err, tempfile.NamedTemporaryFile() as peak:
         start = time.monotonic()
+        words = ([TIME, "-q", "-f", "%M", "-o", peak.name] if os.path.exists(TIME) else []) + list(map(str, command))
         with open(input_file or os.devnull, "rb") as source:
-            child = subprocess.Popen(list(map(str, command)), cwd=folder, stdin=source, stdout=out, stderr=err,
+            child = subprocess.Popen(words, cwd=folder, stdin=source, stdout=out, stderr=err,
                                      env={**os.environ, **(environment or {})}, start_new_session=True)
         usage = _wait(child, start + timeout_s)
         wall = time.monotonic() - start
         out.seek(0), err.seek(0)
-        return Run(list(command), child.returncode, usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024,
+        kilobytes = float(peak.read().split()[-1]) if os.path.exists(TIME) else usage.ru_maxrss
+        return Run(list(command), child.returncode, usage.ru_utime + usage.ru_stime, wall, kilobytes / 1024,
                    out.read().decode(errors="replace"), err.read().decode(errors="replace"))
 
 
@@ -61,11 +66,6 @@ def _wait(child, deadline):
         if time.monotonic() > deadline:
             os.killpg(child.pid, signal.SIGKILL)
         time.sleep(pause_s)
-
-
-def interpreter_memory_MB():
-    """A child starts as a copy of this process, whose size its own peak can therefore not fall below."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
 def read_table(file):
