@@ -105,7 +105,7 @@ Jobs jobs_of(const Project& project, const RunOptions& options, const LitScene& 
     const auto add_map = [&](Jobs& jobs, const SensorGrid& grid) {
         const EffortWords effort = effort_of(project, options, map_accuracy);
         MapJob job{grid,
-                   {effort.samples, effort.accuracy, effort.seed, effort.threads},
+                   {effort.samples, effort.accuracy, effort.seed, effort.threads, effort.unbiased},
                    {folder / (grid.name + ".csv")},
                    lit.provenance,
                    lit.report};
