@@ -71,7 +71,7 @@ double lamp_share_at(const SurfacePlace& place, const HemisphereRays& rays, std:
     double share = 0;
     for (std::uint32_t n = 0; n < tests; ++n) {
         PathRandom random(mix_bits(seed, direct_salt), place_bits(place), n);
-        share += rays.direct(place, false, random).lamp_share / tests;
+        share += rays.direct(place, random).lamp_share / tests;
     }
     return share;
 }

@@ -203,22 +203,26 @@ void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const H
     const std::size_t count = sites_.size();
     direct_.resize(count);
     std::vector<double> unevenness(count);
+    std::vector<BrightDiscs::Lit> lit(count);
     parallel_for(count, settings.threads, [&](std::size_t i) {
+        lit[i] = {sites_[i].position, sites_[i].normal, covered_share * sites_[i].reach_m[0], 0};
         double squares = 0;
         for (std::uint32_t k = 0; k < from[i].size(); ++k) {
             PathRandom random(mix_bits(settings.seed, direct_salt), place_bits(places_[i]), k);
-            const DirectIrradiance direct = rays.direct(from[i][k].place, false, random);
-            direct_[i] += direct.irradiance * from[i][k].weight;
-            squares += photopic(direct.irradiance) * photopic(direct.irradiance) * from[i][k].weight;
+            const DirectIrradiance direct = rays.direct(from[i][k].place, random);
+            direct_[i] += direct.lamps * from[i][k].weight;
+            squares += photopic(direct.lamps) * photopic(direct.lamps) * from[i][k].weight;
+            lit[i].irradiance += photopic(direct.lamps + direct.suns) * from[i][k].weight;
             other_share[i] -= std::min(1.0, direct.lamp_share) * from[i][k].weight;
         }
         const double mean = photopic(direct_[i]);
         unevenness[i] = std::sqrt(std::max(0.0, squares - mean * mean));
     });
+    bright_ = BrightDiscs(std::move(lit));
     double mean = 0;
     for (const Spectrum& direct : direct_)
         mean += photopic(direct) / static_cast<double>(count);
-    constexpr double least_tested = 1.0 / 16, tests_per_unevenness = 2;
+    constexpr double least_tested = 1.0 / 16, tests_per_unevenness = 0.5;
     for (const double u : unevenness)
         tested_share_.push_back(mean > 0 ? std::clamp(tests_per_unevenness * u / mean, least_tested, 1.0)
                                          : least_tested);

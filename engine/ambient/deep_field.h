@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/ambient/bright_discs.h"
 #include "engine/ambient/fixed_point.h"
 #include "engine/ambient/site_tree.h"
 #include "engine/base/spectrum.h"
@@ -54,6 +55,7 @@ public:
     Spectrum direct(std::uint32_t site) const noexcept { return direct_[site]; }
     /// How often the direct light near a site should be tested, [least, 1]: often where it is bright and uneven.
     double tested_share(std::uint32_t site) const noexcept { return tested_share_[site]; }
+    const BrightDiscs& bright() const noexcept { return bright_; }
     /// What the dependences add up to in a replicate.
     Spectrum sum(const std::vector<Dependence>& dependences, int replicate) const noexcept;
     bool solved() const noexcept { return !ambient_[0].empty(); }
@@ -82,6 +84,7 @@ private:
     std::array<std::vector<Spectrum>, replicates> ambient_;
     std::vector<Spectrum> direct_;
     std::vector<double> tested_share_;
+    BrightDiscs bright_;
 };
 
 /// A number that a place and its side always have, whoever asks first: the key of its random numbers.

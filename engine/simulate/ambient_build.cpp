@@ -25,7 +25,7 @@ AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std:
     AmbientEffort effort;
     // At 5 %: 64 rays a site, 512 a record, records 0.1 of the harmonic mean distance apart.
     constexpr double usual = 0.05;
-    effort.deep.rays = power_of_two(64 * usual / accuracy, 64, 1024);
+    effort.deep.rays = power_of_two(24 * usual / accuracy, 64, 1024);
     effort.deep.reach_share = std::clamp(0.6 * std::pow(accuracy / usual, 0.25), 0.25, 0.6);
     effort.deep.seed = effort.cache.seed = seed;
     effort.deep.threads = effort.cache.threads = threads;

@@ -65,8 +65,8 @@ private:
         double lamp_share = 0;
         for (std::uint32_t n = 0; n < tests; ++n) {
             PathRandom random(mix_bits(key, direct_salt), i, n);
-            const DirectIrradiance found = tracer.direct(places[i], true, random);
-            direct += found.irradiance / tests;
+            const DirectIrradiance found = tracer.sensor_direct(places[i], random);
+            direct += (found.lamps + found.suns) / tests;
             lamp_share += found.lamp_share / tests;
         }
         const Frame frame = frame_about(places[i].normal);

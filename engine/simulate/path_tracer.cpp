@@ -13,11 +13,20 @@ constexpr int first_rays = 4, later_rays = 1;
 constexpr int sure_scatterings = 3;
 /// Even a path that loses nothing ends some day.
 constexpr double most_survival = 0.9999;
-/// Behind a scattering the noise of one shadow ray a lamp is lost among that of the scattered rays.
-DirectSettings quick_settings()
+/// At a site one shadow ray a lamp will do: a mean over several places is wanted.
+DirectSettings site_settings()
 {
     DirectSettings settings;
     settings.subdivide = false;
+    return settings;
+}
+
+/// Behind a scattering one lamp is tested, chosen by what each would give here: where all are seen, that is exact.
+DirectSettings quick_settings()
+{
+    DirectSettings settings = site_settings();
+    settings.threshold = infinity;
+    settings.sampled_remainder = true;
     return settings;
 }
 
@@ -47,6 +56,8 @@ struct PathTracer::Walk {
     MirrorChain chain;                       ///< mirrors since the last bend by a diffuse or glossy lobe
     double way_m = 0;                        ///< from there
     int scatterings = 0;
+    double surface_weight = 1;  ///< of an arrival's light from surfaces that scatter, met straight away
+    bool surfaces_only = false; ///< an arrival aimed at such a surface: sky and mirrored light are not its business
     bool straight_from_receiver = false; ///< of an arrival, before anything bends it
     bool met_lamp = false;               ///< of an arrival: straight away
     bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
@@ -79,8 +90,8 @@ struct PathTracer::AmbientHere {
 PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
                        const VirtualSources& virtual_sources, const AmbientLight& ambient)
     : scene_(scene), rays_(rays), sources_(sources), virtual_sources_(virtual_sources), ambient_(ambient),
-      direct_(sources, rays), mirrored_(virtual_sources, sources, rays), quick_direct_(sources, rays, quick_settings()),
-      white_(Plastic{Spectrum::grey(1), 0, 0})
+      direct_(sources, rays), mirrored_(virtual_sources, sources, rays), site_direct_(sources, rays, site_settings()),
+      quick_direct_(sources, rays, quick_settings()), white_(Plastic{Spectrum::grey(1), 0, 0})
 {
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;
@@ -93,6 +104,8 @@ PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceL
 
 void PathTracer::meet_distant(Walk& walk) const
 {
+    if (walk.surfaces_only)
+        return;
     const Direction direction = walk.ray.direction;
     if (!sources_.sky().empty()) {
         const Spectrum radiance = sources_.sky().radiance(direction);
@@ -277,6 +290,8 @@ bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRand
         walk.arriving_throughput = {};
     walk.throughput *= scattered->weight;
     walk.ray = {vertex.hit.leave(world), normalized(world), infinity};
+    if (walk.surfaces_only && !scattered->straight)
+        return false;
     if (!scattered->straight) { // a straight passage leaves the weights of the last scattering as they are
         walk.straight_from_receiver = false;
         if (scattered->delta) {
@@ -337,6 +352,11 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     }
     const Lobes& lobes = vertex.bsdf.lobes();
     walk.first_is_diffuse = walk.at_first ? !lobes.diffuse_reflectance.is_black() : walk.first_is_diffuse;
+    if (walk.straight_from_receiver && (is_diffuse(lobes) || lobes.glossy)) {
+        walk.arriving_throughput = walk.arriving_throughput * walk.surface_weight;
+        walk.surface_weight = 1;
+        walk.surfaces_only = false;
+    }
     AmbientHere here;
     if (is_diffuse(lobes) && find_ambient(walk, vertex, here)) {
         add_ambient(walk, here);
@@ -402,26 +422,46 @@ Spectrum PathTracer::irradiance(const SurfacePlace& receiver, int replicate, Pat
     return walk.irradiance;
 }
 
-Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direction, PathRandom& random,
-                           std::vector<Dependence>& dependences) const
+/// @param weight  of what the ray brings from surfaces
+PathTracer::Walk PathTracer::arriving_walk(const Vertex& vertex, const Direction& direction, double weight) const
 {
-    const Vertex vertex = white_vertex(receiver);
     Walk walk;
-    Arrival arrival;
-    if (!sources_.sky().empty()) {
-        const GatherWish sky{later_rays, {false, false, true}, LobeSet::all};
-        arrival.irradiance = direct_.gather(vertex, sky, random, walk.here).irradiance;
-    }
     walk.ray = {vertex.hit.leave(direction), direction, infinity};
     walk.arriving_throughput = Spectrum::grey(pi);
+    walk.surface_weight = weight;
     walk.at_first = false;
     walk.bent = true;
     walk.sources = Walk::Sources::answered;
     walk.chain.begin();
-    walk.shares = walk.here;
-    walk.scattered_density = cosine_hemisphere_density_per_sr(dot(direction, receiver.normal));
+    walk.scattered_density = cosine_hemisphere_density_per_sr(dot(direction, vertex.side));
     walk.scatterings = 1;
     walk.straight_from_receiver = true;
+    return walk;
+}
+
+Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direction, PathRandom& random,
+                           std::vector<Dependence>& dependences) const
+{
+    const Vertex vertex = white_vertex(receiver);
+    Arrival arrival;
+    SourceShares shares;
+    if (!sources_.sky().empty()) {
+        const GatherWish sky{later_rays, {false, false, true}, LobeSet::all};
+        arrival.irradiance = direct_.gather(vertex, sky, random, shares).irradiance;
+    }
+    const BrightDiscs* bright = ambient_.deep != nullptr ? &ambient_.deep->bright() : nullptr;
+    const bool guided = bright != nullptr && !bright->empty();
+    const auto cosine_density = [&](const Direction& d) {
+        return cosine_hemisphere_density_per_sr(dot(d, receiver.normal));
+    };
+    BrightDiscs::Shares discs;
+    double weight = 1;
+    if (guided) {
+        discs = bright->shares(receiver.position, receiver.normal);
+        weight = 1 - shadow_ray_weight(bright->density_per_sr(discs, direction), cosine_density(direction));
+    }
+    Walk walk = arriving_walk(vertex, direction, weight);
+    walk.shares = shares;
     walk.dependences = &dependences;
     run(walk, random);
     arrival.irradiance += walk.irradiance;
@@ -429,6 +469,16 @@ Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direct
     arrival.met_lamp = walk.met_lamp;
     if (walk.first)
         arrival.distance_m = length(walk.first->position - receiver.position);
+    const SampledDirection aimed = guided ? bright->sample(discs, random.pair()) : SampledDirection{};
+    const double cosine = cosine_density(aimed.direction);
+    if (aimed.density_per_sr > 0 && cosine > 0) {
+        const double share = shadow_ray_weight(aimed.density_per_sr, cosine);
+        Walk second = arriving_walk(vertex, aimed.direction, share * cosine / aimed.density_per_sr);
+        second.surfaces_only = true;
+        second.dependences = &dependences;
+        run(second, random);
+        arrival.irradiance += second.irradiance;
+    }
     return arrival;
 }
 
@@ -450,15 +500,37 @@ double PathTracer::distance_m(const SurfacePlace& receiver, const Direction& dir
     return rays_.closest({vertex.hit.leave(direction), direction, infinity}, hit) ? hit.t : infinity;
 }
 
-DirectIrradiance PathTracer::direct(const SurfacePlace& receiver, bool with_suns, PathRandom& random) const
+Spectrum PathTracer::light_of(const DirectLight& sources, const Vertex& vertex, const SourceKinds& kinds,
+                              PathRandom& random, double& lamp_share) const
 {
     SourceShares shares;
     MirrorShares mirror_shares;
+    const Gathered found = sources.gather_tested(vertex, kinds, {}, random, shares);
+    const Gathered mirrored = mirrored_.gather(vertex, {first_rays, kinds, LobeSet::specular}, random, mirror_shares);
+    lamp_share += found.lamp_share;
+    return found.irradiance + mirrored.irradiance;
+}
+
+DirectIrradiance PathTracer::direct_by(const DirectLight& sources, const SurfacePlace& receiver,
+                                       PathRandom& random) const
+{
     const Vertex vertex = white_vertex(receiver);
-    const GatherWish wish{first_rays, {true, with_suns, false}, LobeSet::specular};
-    const Gathered found = direct_.gather_tested(vertex, wish.kinds, {}, random, shares);
-    const Gathered mirrored = mirrored_.gather(vertex, wish, random, mirror_shares);
-    return {found.irradiance + mirrored.irradiance, found.lamp_share};
+    DirectIrradiance direct;
+    if (!sources_.lamps().empty())
+        direct.lamps = light_of(sources, vertex, {true, false, false}, random, direct.lamp_share);
+    if (!sources_.suns().empty())
+        direct.suns = light_of(sources, vertex, {false, true, false}, random, direct.lamp_share);
+    return direct;
+}
+
+DirectIrradiance PathTracer::direct(const SurfacePlace& receiver, PathRandom& random) const
+{
+    return direct_by(site_direct_, receiver, random);
+}
+
+DirectIrradiance PathTracer::sensor_direct(const SurfacePlace& receiver, PathRandom& random) const
+{
+    return direct_by(direct_, receiver, random);
 }
 
 void PathTracer::receivers_along(const Ray& ray, int scatterings, PathRandom& random,

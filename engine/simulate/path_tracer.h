@@ -33,7 +33,9 @@ public:
                    std::vector<Dependence>& dependences) const override;
     bool beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const override;
     double distance_m(const SurfacePlace& receiver, const Direction& direction) const override;
-    DirectIrradiance direct(const SurfacePlace& receiver, bool with_suns, PathRandom& random) const override;
+    DirectIrradiance direct(const SurfacePlace& receiver, PathRandom& random) const override;
+    /// The same with all the shadow rays that a result deserves.
+    DirectIrradiance sensor_direct(const SurfacePlace& receiver, PathRandom& random) const;
 
     /// The places along a path that receive ambient light, on the side that a ray came from and, where light passes
     /// diffusely, on the other: those the eye sees by mirrored and straight rays, then those seen from there.
@@ -56,6 +58,10 @@ private:
     bool meet_surface(Walk& walk, PathRandom& random) const;
     void meet_emitter(Walk& walk, const Hit& hit, const Material& material) const;
     void run(Walk& walk, PathRandom& random) const;
+    Walk arriving_walk(const Vertex& vertex, const Direction& direction, double weight) const;
+    Spectrum light_of(const DirectLight& sources, const Vertex& vertex, const SourceKinds& kinds, PathRandom& random,
+                      double& lamp_share) const;
+    DirectIrradiance direct_by(const DirectLight& sources, const SurfacePlace& receiver, PathRandom& random) const;
     Vertex white_vertex(const SurfacePlace& receiver) const;
 
     const Scene& scene_;
@@ -65,6 +71,7 @@ private:
     AmbientLight ambient_;
     DirectLight direct_;
     MirroredLight mirrored_;
+    DirectLight site_direct_;                 ///< at the sites of the deep field
     DirectLight quick_direct_;                ///< behind a scattering
     std::vector<const Material*> materials_;  ///< by modifier
     std::vector<const Material*> alternates_; ///< by modifier: what eyes see of an Illum; null: nothing

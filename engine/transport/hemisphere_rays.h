@@ -33,7 +33,7 @@ struct Arrival {
 
 /// Light straight from the sources.
 struct DirectIrradiance {
-    Spectrum irradiance;   ///< W/m^2
+    Spectrum lamps, suns;  ///< irradiance, W/m^2
     double lamp_share = 0; ///< of the hemisphere, cosine-weighted, that shows lamps
 };
 
@@ -52,8 +52,7 @@ public:
     virtual bool beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const = 0;
     /// Distance to what a ray meets; infinity for nothing.
     virtual double distance_m(const SurfacePlace& receiver, const Direction& direction) const = 0;
-    /// Irradiance from lamps and, when wanted, suns.
-    virtual DirectIrradiance direct(const SurfacePlace& receiver, bool with_suns, PathRandom& random) const = 0;
+    virtual DirectIrradiance direct(const SurfacePlace& receiver, PathRandom& random) const = 0;
 };
 
 } // namespace lightwell
