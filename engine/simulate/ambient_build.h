@@ -27,6 +27,7 @@ public:
 
     /// Uses what has been built so far.
     const PathTracer& tracer() const noexcept { return tracer_; }
+    WorkCounts work() const noexcept { return {deep_.size(), deep_.bright().size(), cache_.records().size()}; }
     const DeepField& deep() const noexcept { return deep_; }
     const AmbientCache& cache() const noexcept { return cache_; }
 

@@ -178,6 +178,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
             points.push_back({all.values[k * step], checks.values[k], checks.errors[k]});
         result.bias = bias_of(points);
     }
+    result.work = ambient.work();
     result.seconds = seconds_since(start);
     return result;
 }

@@ -21,6 +21,15 @@ DirectSettings site_settings()
     return settings;
 }
 
+/// Several paths share a pixel: each tests the lamps that give most, with one shadow ray, and one of the rest.
+DirectSettings eye_settings()
+{
+    DirectSettings settings = site_settings();
+    settings.threshold = 0.5;
+    settings.sampled_remainder = true;
+    return settings;
+}
+
 /// Behind a scattering one lamp is tested, chosen by what each would give here: where all are seen, that is exact.
 DirectSettings quick_settings()
 {
@@ -90,8 +99,9 @@ struct PathTracer::AmbientHere {
 PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
                        const VirtualSources& virtual_sources, const AmbientLight& ambient)
     : scene_(scene), rays_(rays), sources_(sources), virtual_sources_(virtual_sources), ambient_(ambient),
-      direct_(sources, rays), mirrored_(virtual_sources, sources, rays), site_direct_(sources, rays, site_settings()),
-      quick_direct_(sources, rays, quick_settings()), white_(Plastic{Spectrum::grey(1), 0, 0})
+      direct_(sources, rays), mirrored_(virtual_sources, sources, rays), eye_direct_(sources, rays, eye_settings()),
+      site_direct_(sources, rays, site_settings()), quick_direct_(sources, rays, quick_settings()),
+      white_(Plastic{Spectrum::grey(1), 0, 0})
 {
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;
@@ -231,7 +241,7 @@ void PathTracer::gather_beside_ambient(Walk& walk, const Vertex& vertex, const A
 {
     if (!walk.bent) {
         const GatherWish wish{first_rays, {true, true, false}, LobeSet::specular};
-        add_direct(walk, direct_.gather_tested(vertex, wish.kinds, {}, random, walk.here), 1);
+        add_direct(walk, eye_direct_.gather_tested(vertex, wish.kinds, {}, random, walk.here), 1);
         add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1);
         return;
     }

@@ -71,6 +71,7 @@ private:
     AmbientLight ambient_;
     DirectLight direct_;
     MirroredLight mirrored_;
+    DirectLight eye_direct_;                  ///< at what the eye sees
     DirectLight site_direct_;                 ///< at the sites of the deep field
     DirectLight quick_direct_;                ///< behind a scattering
     std::vector<const Material*> materials_;  ///< by modifier

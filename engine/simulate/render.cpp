@@ -326,6 +326,7 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
         result.bias = check_bias({camera, parts_->tracer, settings.width, settings.height, mix_bits(settings.seed)},
                                  wanted, result.picture, settings.threads, check);
     }
+    result.work = ambient.work();
     result.seconds = seconds_since(start);
     return result;
 }

@@ -53,6 +53,11 @@ struct BiasEstimate {
     int points = 0;            ///< looked at; 0: the result is unbiased, or was not checked
 };
 
+/// What was built for a result: 0 for stages that the scene or the settings did without.
+struct WorkCounts {
+    std::size_t deep_sites = 0, bright_discs = 0, ambient_records = 0;
+};
+
 /// Where finished tiles go, and where those of an interrupted run come from. May be called from several threads.
 struct TileStore {
     std::function<std::optional<Picture>(const Tile&)> stored = {};
@@ -64,6 +69,7 @@ struct PictureResult {
                      ///< error)
     double median_relative_error = 0; ///< of luminance, over the pixels that are not black
     BiasEstimate bias;
+    WorkCounts work;
     int samples = 0;
     double seconds = 0;
 };
@@ -85,6 +91,7 @@ struct GridResult {
     std::vector<Illuminance> values;
     std::vector<Illuminance> standard_errors;
     BiasEstimate bias;
+    WorkCounts work;
     double median_relative_error = 0;
     int samples = 0;
     double seconds = 0;

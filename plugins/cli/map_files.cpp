@@ -107,6 +107,7 @@ void write_files(const MapJob& job, const GridResult& result, double cpu_seconds
     record.predicted = job.predicted;
     record.threads = job.settings.threads;
     record.samples = result.samples;
+    record.work = result.work;
     record.wanted_accuracy = job.settings.accuracy;
     record.median_relative_error = result.median_relative_error;
     record.more = map_header(job, result);

@@ -91,6 +91,7 @@ void write_companions(const PictureResult& result, const PictureJob& job, double
     record.predicted = job.predicted;
     record.threads = job.settings.threads;
     record.samples = result.samples;
+    record.work = result.work;
     record.wanted_accuracy = job.settings.accuracy;
     record.median_relative_error = result.median_relative_error;
     record.more = result.picture.header;

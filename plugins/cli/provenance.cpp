@@ -85,6 +85,9 @@ void write_run_record(const std::filesystem::path& result, const RunRecord& reco
     json["seconds"] = record.seconds;
     json["cpu_seconds"] = record.cpu_seconds;
     json["samples"] = record.samples;
+    json["built"] = {{"deep_sites", record.work.deep_sites},
+                     {"bright_discs", record.work.bright_discs},
+                     {"ambient_records", record.work.ambient_records}};
     json["wanted_accuracy"] = record.wanted_accuracy;
     json["median_relative_error"] = record.median_relative_error;
     if (record.predicted)

@@ -2,6 +2,7 @@
 
 #include "engine/base/report.h"
 #include "engine/control/predict.h"
+#include "engine/simulate/simulate.h"
 
 #include <filesystem>
 #include <map>
@@ -22,6 +23,7 @@ struct RunRecord {
     double cpu_seconds = 0; ///< of all threads
     int threads = 0;        ///< as asked; 0: all processors
     int samples = 0;
+    WorkCounts work;
     double wanted_accuracy = 0;
     double median_relative_error = 0;
     std::map<std::string, std::string> more; ///< settings of the result, as in its header
