@@ -405,6 +405,14 @@ PathSample PathTracer::sample(const Ray& ray, int replicate, PathRandom& random)
     return result;
 }
 
+Sight PathTracer::sight(const Ray& ray) const noexcept
+{
+    Hit hit;
+    if (!rays_.closest(ray, hit))
+        return {};
+    return {true, hit.modifier, hit.normal, hit.t};
+}
+
 Vertex PathTracer::white_vertex(const SurfacePlace& receiver) const
 {
     Hit here;

@@ -14,6 +14,14 @@ struct PathSample {
     Direction normal{0, 0, 0};    ///< on the viewer's side
 };
 
+/// What a ray meets first.
+struct Sight {
+    bool met_surface = false;
+    ModifierId modifier = void_modifier;
+    Direction normal{0, 0, 0};
+    double distance_m = infinity;
+};
+
 /// Solution of the rendering equation along paths: shadow rays to the sources at every vertex, scattered rays for all
 /// the rest, any number of bounces, ended by roulette. With ambient light at hand, a vertex takes its diffusely
 /// scattered light from there, and only mirrored, refracted and glossy rays go on.
@@ -26,6 +34,7 @@ public:
 
     /// @param replicate  of the ambient light
     PathSample sample(const Ray& ray, int replicate, PathRandom& random) const;
+    Sight sight(const Ray& ray) const noexcept;
     /// One estimate of the irradiance at a receiver, W/m^2.
     Spectrum irradiance(const SurfacePlace& receiver, int replicate, PathRandom& random) const;
 

@@ -1,6 +1,6 @@
 #include "engine/base/threads.h"
-#include "engine/sampling/statistics.h"
 #include "engine/simulate/ambient_build.h"
+#include "engine/simulate/pixels.h"
 #include "engine/simulate/replicates.h"
 
 #include <algorithm>
@@ -16,94 +16,12 @@ constexpr int check_paths = 16 * replicates;
 /// Records of ambient light are looked for at every so many pixels, then between them.
 constexpr int first_stride = 32, last_stride = 4;
 
-struct PixelResult {
-    RunningStatistics channel[3], luminance, illuminance;
-    double depth_sum = 0;
-    Vec3 normal_sum;
-    int met = 0;
-};
-
-struct PixelTask {
-    const Camera& camera;
-    const PathTracer& tracer;
-    int width, height;
-    std::uint64_t seed;
-
-    PixelResult operator()(int x, int y, int samples) const
-    {
-        PixelResult result;
-        const auto pixel =
-            static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
-        const auto each = static_cast<std::uint32_t>(samples / replicates);
-        for (int r = 0; r < replicates; ++r) {
-            Spectrum radiance, irradiance;
-            for (std::uint32_t i = 0; i < each; ++i)
-                add_path(result, x, y, r, PathRandom(mix_bits(seed, static_cast<std::uint64_t>(r)), pixel, i), radiance,
-                         irradiance);
-            radiance = radiance / each;
-            for (int c = 0; c < 3; ++c)
-                result.channel[c].add(radiance[c]);
-            result.luminance.add(luminance_of(radiance).value);
-            result.illuminance.add(illuminance_of(irradiance / each).value);
-        }
-        return result;
-    }
-
-private:
-    void add_path(PixelResult& result, int x, int y, int replicate, PathRandom random, Spectrum& radiance,
-                  Spectrum& irradiance) const
-    {
-        const UnitSquare jitter = random.pair();
-        ViewRay start;
-        const UnitSquare lens = camera.has_lens() ? random.pair() : UnitSquare{};
-        if (!camera.ray((x + jitter.u) / width, 1 - (y + jitter.v) / height, lens, start))
-            return;
-        const PathSample path = tracer.sample({start.origin, start.direction, start.reach_m}, replicate, random);
-        radiance += path.radiance;
-        if (!path.met_surface)
-            return;
-        irradiance += path.irradiance;
-        result.depth_sum += path.distance_m;
-        result.normal_sum += path.normal;
-        ++result.met;
-    }
-};
-
-const char* const channel_names[] = {
-    "R",       "G",       "B",       "illuminance.Y",      "Z", "N.X", "N.Y", "N.Z", "error.R",
-    "error.G", "error.B", "error.Y", "error.illuminance.Y"};
-
 Picture empty_picture(int width, int height)
 {
     Picture picture{width, height, {}, {}};
     for (const std::string& name : tile_channels())
         picture.add_channel(name);
     return picture;
-}
-
-void put(Picture& picture, std::size_t at, const PixelResult& result, int samples)
-{
-    const auto set = [&](const char* channel, double value) {
-        picture.channels.find(channel)->second[at] = static_cast<float>(value);
-    };
-    set("R", result.channel[0].mean());
-    set("G", result.channel[1].mean());
-    set("B", result.channel[2].mean());
-    set("error.R", result.channel[0].standard_error());
-    set("error.G", result.channel[1].standard_error());
-    set("error.B", result.channel[2].standard_error());
-    set("error.Y", result.luminance.standard_error());
-    // A picture element that the horizon cuts: the mean over the part that shows a surface.
-    const double part = static_cast<double>(result.met) / samples;
-    const bool met = result.met > 0;
-    const double nothing = std::numeric_limits<double>::quiet_NaN();
-    set("illuminance.Y", met ? result.illuminance.mean() / part : nothing);
-    set("error.illuminance.Y", met ? result.illuminance.standard_error() / part : nothing);
-    set("Z", met ? result.depth_sum / result.met : infinity);
-    const Vec3 normal = normalized(result.normal_sum);
-    set("N.X", normal.x);
-    set("N.Y", normal.y);
-    set("N.Z", normal.z);
 }
 
 void copy_tile(Picture& picture, const Tile& tile, const Picture& part)
@@ -144,7 +62,7 @@ Lattice measure_lattice(const PixelTask& task, const Tile& part, int columns, in
     lattice.errors.resize(lattice.x.size());
     parallel_for(lattice.x.size(), threads, [&](std::size_t i) {
         teller.check();
-        const PixelResult result = task(lattice.x[i], lattice.y[i], samples);
+        const PixelResult result = task.measure(lattice.x[i], lattice.y[i], samples);
         lattice.values[i] = result.luminance.mean();
         lattice.errors[i] = result.luminance.standard_error();
         teller.done_one();
@@ -218,8 +136,8 @@ void check_size(const View& view, const PictureSettings& settings)
 }
 
 /// All tiles of a part of the picture, those kept from an interrupted run included.
-Picture render_tiles(const PixelTask& pixel, const Tile& wanted, int samples, int threads, const TileStore& store,
-                     Teller& teller)
+Picture render_tiles(const PixelTask& pixel, const Tile& wanted, int samples, double tolerance, int threads,
+                     const TileStore& store, Teller& teller)
 {
     Picture picture = empty_picture(wanted.width, wanted.height);
     if (wanted.width < pixel.width || wanted.height < pixel.height)
@@ -230,13 +148,14 @@ Picture render_tiles(const PixelTask& pixel, const Tile& wanted, int samples, in
         std::optional<Picture> part = store.stored ? store.stored(tile) : std::nullopt;
         if (!part) {
             part = empty_picture(tile.width, tile.height);
+            PixelField field(pixel, samples, tolerance);
             for (int y = 0; y < tile.height; ++y) {
                 teller.check();
                 for (int x = 0; x < tile.width; ++x)
                     put(*part,
                         static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
                             static_cast<std::size_t>(x),
-                        pixel(wanted.x + tile.x + x, wanted.y + tile.y + y, samples), samples);
+                        field.at(wanted.x + tile.x + x, wanted.y + tile.y + y));
             }
             if (store.finished)
                 store.finished(tile, *part);
@@ -275,7 +194,7 @@ BiasEstimate check_bias(const PixelTask& plain, const Tile& wanted, const Pictur
 
 std::vector<std::string> tile_channels()
 {
-    return {std::begin(channel_names), std::end(channel_names)};
+    return {std::begin(pixel_channels), std::end(pixel_channels)};
 }
 
 Tile wanted_pixels(const PictureSettings& settings)
@@ -319,7 +238,8 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
             samples_for(median_relative(pilot.values, pilot.errors), pilot_samples, settings.accuracy, most_samples);
     }
     Teller teller(progress, "view " + view.name, tiles_of(wanted.width, wanted.height).size());
-    result.picture = render_tiles(pixel, wanted, result.samples, settings.threads, store, teller);
+    const double tolerance = plain || !settings.techniques.image_sampling ? 0 : settings.accuracy;
+    result.picture = render_tiles(pixel, wanted, result.samples, tolerance, settings.threads, store, teller);
     result.median_relative_error = median_relative_error(result.picture);
     if (!plain) {
         Teller check(progress, "check, view " + view.name, check_columns * check_rows);

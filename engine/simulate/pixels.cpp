@@ -1,0 +1,173 @@
+#include "engine/simulate/pixels.h"
+
+#include <algorithm>
+
+namespace lightwell {
+
+const char* const pixel_channels[pixel_channel_count] = {
+    "R",       "G",       "B",       "illuminance.Y",      "Z", "N.X", "N.Y", "N.Z", "error.R",
+    "error.G", "error.B", "error.Y", "error.illuminance.Y"};
+
+namespace {
+
+constexpr std::size_t illuminance_at = 3, depth_at = 4, normal_at = 5, luminance_error_at = 11,
+                      illuminance_error_at = 12;
+
+/// Cosine between normals, and relative difference of distances, of what counts as the same surface.
+constexpr double same_cosine = 0.98, same_distance = 0.1;
+
+bool same_surface(const Sight& a, const Sight& b)
+{
+    if (a.met_surface != b.met_surface)
+        return false;
+    return !a.met_surface || (a.modifier == b.modifier && dot(a.normal, b.normal) > same_cosine &&
+                              std::fabs(a.distance_m - b.distance_m) <= same_distance * a.distance_m);
+}
+
+/// Whether the values lie within a share of their mean, or differ no more than by their noise.
+bool close(const double* values, const double* errors, std::size_t count, double tolerance)
+{
+    constexpr double usual_span = 2.5; // of a few values of equal error, in standard errors
+    const auto [low, high] = std::minmax_element(values, values + count);
+    const double noise = *std::max_element(errors, errors + count);
+    return *high - *low <= std::max(tolerance * 0.5 * (*high + *low), usual_span * noise);
+}
+
+} // namespace
+
+PixelResult PixelTask::measure(int x, int y, int samples) const
+{
+    PixelResult result;
+    const auto pixel =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
+    const auto each = static_cast<std::uint32_t>(samples / replicates);
+    for (int r = 0; r < replicates; ++r) {
+        Spectrum radiance, irradiance;
+        for (std::uint32_t i = 0; i < each; ++i)
+            add_path(result, x, y, r, PathRandom(mix_bits(seed, static_cast<std::uint64_t>(r)), pixel, i), radiance,
+                     irradiance);
+        radiance = radiance / each;
+        for (int c = 0; c < 3; ++c)
+            result.channel[c].add(radiance[c]);
+        result.luminance.add(luminance_of(radiance).value);
+        result.illuminance.add(illuminance_of(irradiance / each).value);
+    }
+    return result;
+}
+
+void PixelTask::add_path(PixelResult& result, int x, int y, int replicate, PathRandom random, Spectrum& radiance,
+                         Spectrum& irradiance) const
+{
+    const UnitSquare jitter = random.pair();
+    ViewRay start;
+    const UnitSquare lens = camera.has_lens() ? random.pair() : UnitSquare{};
+    if (!camera.ray((x + jitter.u) / width, 1 - (y + jitter.v) / height, lens, start))
+        return;
+    const PathSample path = tracer.sample({start.origin, start.direction, start.reach_m}, replicate, random);
+    radiance += path.radiance;
+    if (!path.met_surface)
+        return;
+    irradiance += path.irradiance;
+    result.depth_sum += path.distance_m;
+    result.normal_sum += path.normal;
+    ++result.met;
+}
+
+Sight PixelTask::sight(int x, int y) const noexcept
+{
+    ViewRay start;
+    if (!camera.ray((x + 0.5) / width, 1 - (y + 0.5) / height, start))
+        return {};
+    return tracer.sight({start.origin, start.direction, start.reach_m});
+}
+
+PixelValue value_of(const PixelResult& result, int samples)
+{
+    // A picture element that the horizon cuts: the mean over the part that shows a surface.
+    const double part = static_cast<double>(result.met) / samples;
+    const bool met = result.met > 0;
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    const Vec3 normal = normalized(result.normal_sum);
+    const double values[pixel_channel_count] = {result.channel[0].mean(),
+                                                result.channel[1].mean(),
+                                                result.channel[2].mean(),
+                                                met ? result.illuminance.mean() / part : nothing,
+                                                met ? result.depth_sum / result.met : infinity,
+                                                normal.x,
+                                                normal.y,
+                                                normal.z,
+                                                result.channel[0].standard_error(),
+                                                result.channel[1].standard_error(),
+                                                result.channel[2].standard_error(),
+                                                result.luminance.standard_error(),
+                                                met ? result.illuminance.standard_error() / part : nothing};
+    PixelValue value;
+    std::transform(std::begin(values), std::end(values), value.begin(), [](double v) { return static_cast<float>(v); });
+    return value;
+}
+
+const PixelField::Pixel& PixelField::own(int x, int y)
+{
+    const std::int64_t key = static_cast<std::int64_t>(y) * task_.width + x;
+    const auto found = own_.find(key);
+    if (found != own_.end())
+        return found->second;
+    return own_.emplace(key, Pixel{value_of(task_.measure(x, y, samples_), samples_), task_.sight(x, y)}).first->second;
+}
+
+bool PixelField::interpolated(int x, int y, PixelValue& value)
+{
+    const bool between_columns = x % 2 != 0, between_rows = y % 2 != 0;
+    if (!between_columns && !between_rows)
+        return false;
+    const int dx = between_columns ? 1 : 0, dy = between_rows ? 1 : 0;
+    if (x + dx >= task_.width || y + dy >= task_.height)
+        return false;
+    const Pixel* around[4] = {&own(x - dx, y - dy), &own(x + dx, y + dy), nullptr, nullptr};
+    std::size_t count = 2;
+    if (between_columns && between_rows) {
+        around[2] = &own(x - 1, y + 1);
+        around[3] = &own(x + 1, y - 1);
+        count = 4;
+    }
+    const Sight here = task_.sight(x, y);
+    double luminance[4], illuminance[4], luminance_error[4], illuminance_error[4];
+    for (std::size_t i = 0; i < count; ++i) {
+        const PixelValue& v = around[i]->value;
+        if (!same_surface(here, around[i]->sight))
+            return false;
+        luminance[i] = luminance_of({v[0], v[1], v[2]}).value;
+        luminance_error[i] = v[luminance_error_at];
+        illuminance[i] = here.met_surface ? v[illuminance_at] : 0;
+        illuminance_error[i] = here.met_surface ? v[illuminance_error_at] : 0;
+    }
+    if (!close(luminance, luminance_error, count, tolerance_) ||
+        !close(illuminance, illuminance_error, count, tolerance_))
+        return false;
+    value.fill(0);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < pixel_channel_count; ++c)
+            value[c] += around[i]->value[c] / static_cast<float>(count);
+    if (here.met_surface) {
+        const Vec3 normal = normalized({value[normal_at], value[normal_at + 1], value[normal_at + 2]});
+        for (int c = 0; c < 3; ++c)
+            value[normal_at + static_cast<std::size_t>(c)] = static_cast<float>(normal[c]);
+        value[depth_at] = static_cast<float>(here.distance_m);
+    }
+    return true;
+}
+
+const PixelValue& PixelField::at(int x, int y)
+{
+    if (tolerance_ > 0 && interpolated(x, y, last_))
+        return last_;
+    return own(x, y).value;
+}
+
+void put(Picture& picture, std::size_t at, const PixelValue& value)
+{
+    for (std::size_t c = 0; c < pixel_channel_count; ++c)
+        picture.channels.find(pixel_channels[c])->second[at] = value[c];
+}
+
+} // namespace lightwell

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "engine/pictures/picture.h"
+#include "engine/sampling/statistics.h"
+#include "engine/scene/view.h"
+#include "engine/simulate/path_tracer.h"
+
+#include <array>
+#include <unordered_map>
+
+/// \file Pixels of one picture; nothing outside engine/simulate includes it.
+namespace lightwell {
+
+inline constexpr std::size_t pixel_channel_count = 13;
+extern const char* const pixel_channels[pixel_channel_count];
+/// One value for each of pixel_channels.
+using PixelValue = std::array<float, pixel_channel_count>;
+
+/// Sums over the paths of one pixel.
+struct PixelResult {
+    RunningStatistics channel[3], luminance, illuminance;
+    double depth_sum = 0;
+    Vec3 normal_sum;
+    int met = 0;
+};
+PixelValue value_of(const PixelResult& result, int samples);
+
+/// A pixel by its own paths: a pure function of its place.
+struct PixelTask {
+    const Camera& camera;
+    const PathTracer& tracer;
+    int width, height;
+    std::uint64_t seed;
+
+    PixelResult measure(int x, int y, int samples) const;
+    /// What its middle shows.
+    Sight sight(int x, int y) const noexcept;
+
+private:
+    void add_path(PixelResult& result, int x, int y, int replicate, PathRandom random, Spectrum& radiance,
+                  Spectrum& irradiance) const;
+};
+
+/// The pixels of a part of a picture: every other one in both directions by its own paths, those between by
+/// interpolation where the neighbours agree and its middle shows the same surface, else by their own paths too.
+/// A pixel has the same value whatever part it is asked from.
+/// Error: biased by interpolation, less than the tolerance where luminance is smooth
+/// Source  Ward 1994, Section 3.1 (image plane sampling), with a ray to each pixel so that nothing thin is lost
+class PixelField {
+public:
+    /// @param tolerance  relative difference of luminance and of illuminance that neighbours may have; 0: no
+    ///                   interpolation
+    PixelField(const PixelTask& task, int samples, double tolerance)
+        : task_(task), samples_(samples), tolerance_(tolerance)
+    {
+    }
+    const PixelValue& at(int x, int y);
+
+private:
+    struct Pixel {
+        PixelValue value;
+        Sight sight;
+    };
+    const Pixel& own(int x, int y);
+    bool interpolated(int x, int y, PixelValue& value);
+
+    const PixelTask& task_;
+    int samples_;
+    double tolerance_;
+    std::unordered_map<std::int64_t, Pixel> own_;
+    PixelValue last_{};
+};
+
+/// Writes a pixel's value to all channels.
+void put(Picture& picture, std::size_t at, const PixelValue& value);
+
+} // namespace lightwell
