@@ -13,6 +13,8 @@ namespace {
 /// As many sensors as tell the median error to a tenth; where sensors are so many that they share ambient light, as
 /// many as still do.
 constexpr std::size_t few_sensors = 64, sharing_sensors = 2000;
+/// Where sensors share ambient light, its cost grows with about the root of their number: records fill up.
+constexpr double usual_sharing_growth = 0.5;
 /// The longer side of a pilot picture, and of the smaller one that tells how ambient light grows with the pixels.
 constexpr int pilot_side = 96, smaller_side = 48;
 /// Pilot runs begin at this many times the wanted accuracy; each further one is finer by a clear step.
@@ -207,8 +209,13 @@ Prediction predict(const Simulation& simulation, const SensorGrid& grid, const G
         const GridResult result = simulation.illuminance(thin, coarse, told);
         return Outcome{result.samples, result.median_relative_error};
     };
-    return predict_work(work, static_cast<double>(thin.sensors.size()), static_cast<double>(grid.sensors.size()),
-                        settings.accuracy, settings.samples, pilot_s, progress);
+    const auto few = static_cast<double>(thin.sensors.size()), all = static_cast<double>(grid.sensors.size());
+    Prediction prediction = predict_work(work, few, all, settings.accuracy, settings.samples, pilot_s, progress);
+    if (grid.sensors.size() > sharing_sensors) {
+        prediction.model.ambient_s.value *= std::pow(all / few, usual_sharing_growth);
+        prediction.cpu_seconds = prediction.model.seconds(settings.accuracy, all);
+    }
+    return prediction;
 }
 
 Prediction predict(const Simulation& simulation, const View& view, const PictureSettings& settings, double pilot_s,
