@@ -13,15 +13,20 @@ namespace {
 /// As many sensors as tell the median error to a tenth; where sensors are so many that they share ambient light, as
 /// many as still do.
 constexpr std::size_t few_sensors = 64, sharing_sensors = 2000;
+/// Where sensors share ambient light, its cost grows with about the root of their number: records fill up.
+constexpr double usual_sharing_growth = 0.5;
 /// The longer side of a pilot picture, and of the smaller one that tells how ambient light grows with the pixels.
 constexpr int pilot_side = 96, smaller_side = 48;
-/// Pilot runs begin at this many times the wanted accuracy and halve it while time is left.
-constexpr double coarsest_pilot = 8;
+/// Pilot runs begin at this many times the wanted accuracy; each further one is finer by a clear step.
+constexpr double coarsest_pilot = 4, finer_step = 0.7;
+constexpr std::size_t most_pilots = 3;
 /// Coarser than this says nothing; finer is never reached.
 constexpr double coarsest_accuracy = 0.5, finest_accuracy = 1e-4;
-/// Bounds of exponents by accuracy, beyond which a fit is noise: work grows by the inverse square, well stratified
-/// samples lower the error a little faster than they grow.
-constexpr double steepest_work = -3, steepest_error = 1.5;
+/// Bounds of exponents by accuracy, beyond which a fit is noise: work grows by the inverse square, independent
+/// samples lower the error in step with the accuracy, well stratified ones up to twice as fast.
+constexpr double steepest_work = -3, steepest_error = 2, flattest_error = 0.6;
+/// With the fewest samples, only the rays behind ambient light grow: by the inverse of the accuracy.
+constexpr double steepest_ambient_error = 0.6, usual_ambient_error = 0.5;
 constexpr int fewest_samples = 8;
 constexpr int most_samples = 1 << 20;
 
@@ -54,19 +59,20 @@ PowerLaw law(const PilotRun& before, const PilotRun& last, double PilotRun::*wha
     return found;
 }
 
-/// Coarse runs first, each twice as accurate, until the wish itself or the end of the time.
+/// A coarse run first, then the finest that the time allows, up to the wish itself.
 std::vector<PilotRun> series(const Work& work, double items, double wanted, double pilot_s, const Progress& progress)
 {
-    std::vector<PilotRun> runs;
-    double accuracy = std::fmax(wanted, std::fmin(coarsest_pilot * wanted, coarsest_accuracy)), spent = 0;
-    for (;;) {
-        runs.push_back(measure(work, items, accuracy, 0, progress));
+    const double coarse = std::fmax(wanted, std::fmin(coarsest_pilot * wanted, coarsest_accuracy));
+    std::vector<PilotRun> runs{measure(work, items, coarse, 0, progress)};
+    double spent = runs.back().seconds();
+    while (runs.back().accuracy > wanted && runs.size() < most_pilots) {
+        const double affordable = accuracy_within(fit(runs), items, pilot_s - spent);
+        if (affordable > finer_step * runs.back().accuracy)
+            break;
+        runs.push_back(measure(work, items, std::fmax(affordable, wanted), 0, progress));
         spent += runs.back().seconds();
-        const double next = std::fmax(wanted, accuracy / 2);
-        if (accuracy <= wanted || spent + fit(runs).seconds(next, items) > pilot_s)
-            return runs;
-        accuracy = next;
     }
+    return runs;
 }
 
 Prediction predict_accuracy(const Work& work, double pilot_items, double all_items, double wanted, double pilot_s,
@@ -77,8 +83,8 @@ Prediction predict_accuracy(const Work& work, double pilot_items, double all_ite
     for (const PilotRun& run : runs)
         prediction.pilot_cpu_seconds += run.seconds();
     prediction.model = fit(runs);
-    prediction.samples = static_cast<int>(std::lround(prediction.model.samples(wanted)));
-    prediction.error = prediction.model.error(wanted);
+    prediction.samples = static_cast<int>(std::lround(prediction.model.samples_at(wanted)));
+    prediction.error = prediction.model.error_at(wanted);
     prediction.cpu_seconds = prediction.model.seconds(wanted, all_items);
     return prediction;
 }
@@ -98,6 +104,7 @@ Prediction predict_samples(const Work& work, double pilot_items, double all_item
     if (last.samples > first.samples && first.error > 0 && last.error > 0)
         rate = std::clamp(std::log(first.error / last.error) / std::log(last.samples / first.samples), 0.0, 0.75);
     prediction.model = fit({last});
+    prediction.model.fewest_taken = false;
     prediction.model.samples = {accuracy, static_cast<double>(samples), 0};
     prediction.model.error = {accuracy, last.error * std::pow(last.samples / samples, rate), 0};
     prediction.samples = samples;
@@ -158,11 +165,21 @@ double PowerLaw::operator()(double x) const noexcept
     return value * std::pow(x / at, exponent);
 }
 
+double CostModel::samples_at(double accuracy) const noexcept
+{
+    const double excess = fewest_taken ? std::fmax(error(accuracy) / accuracy, 1) : 1;
+    return std::clamp(samples(accuracy) * excess * excess, static_cast<double>(fewest_samples),
+                      static_cast<double>(most_samples));
+}
+
+double CostModel::error_at(double accuracy) const noexcept
+{
+    return fewest_taken ? std::fmin(error(accuracy), accuracy) : error(accuracy);
+}
+
 double CostModel::seconds(double accuracy, double items) const noexcept
 {
-    const double each =
-        std::clamp(samples(accuracy), static_cast<double>(fewest_samples), static_cast<double>(most_samples));
-    return ambient_s(accuracy) + fixed_s + per_sample_s * items * each;
+    return ambient_s(accuracy) + fixed_s + per_sample_s * items * samples_at(accuracy);
 }
 
 CostModel fit(const std::vector<PilotRun>& runs) noexcept
@@ -170,9 +187,12 @@ CostModel fit(const std::vector<PilotRun>& runs) noexcept
     const PilotRun& last = runs.back();
     const PilotRun& before = runs[runs.size() > 1 ? runs.size() - 2 : 0];
     CostModel model;
+    model.fewest_taken = last.samples <= fewest_samples;
     model.ambient_s = law(before, last, &PilotRun::ambient_s, steepest_work, 0, -1);
-    model.samples = law(before, last, &PilotRun::samples, steepest_work, 0, last.samples > fewest_samples ? -2 : 0);
-    model.error = law(before, last, &PilotRun::error, 0, steepest_error, 1);
+    model.samples = law(before, last, &PilotRun::samples, steepest_work, 0, model.fewest_taken ? 0 : -2);
+    model.error = model.fewest_taken
+                      ? law(before, last, &PilotRun::error, 0, steepest_ambient_error, usual_ambient_error)
+                      : law(before, last, &PilotRun::error, flattest_error, steepest_error, 1);
     model.fixed_s = last.fixed_s;
     model.per_sample_s = last.per_sample_s;
     return model;
@@ -189,8 +209,13 @@ Prediction predict(const Simulation& simulation, const SensorGrid& grid, const G
         const GridResult result = simulation.illuminance(thin, coarse, told);
         return Outcome{result.samples, result.median_relative_error};
     };
-    return predict_work(work, static_cast<double>(thin.sensors.size()), static_cast<double>(grid.sensors.size()),
-                        settings.accuracy, settings.samples, pilot_s, progress);
+    const auto few = static_cast<double>(thin.sensors.size()), all = static_cast<double>(grid.sensors.size());
+    Prediction prediction = predict_work(work, few, all, settings.accuracy, settings.samples, pilot_s, progress);
+    if (grid.sensors.size() > sharing_sensors) {
+        prediction.model.ambient_s.value *= std::pow(all / few, usual_sharing_growth);
+        prediction.cpu_seconds = prediction.model.seconds(settings.accuracy, all);
+    }
+    return prediction;
 }
 
 Prediction predict(const Simulation& simulation, const View& view, const PictureSettings& settings, double pilot_s,

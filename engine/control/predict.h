@@ -28,9 +28,15 @@ struct PowerLaw {
 
 /// Cost and error by accuracy, continued from the two last of a series of pilot runs, each more accurate.
 struct CostModel {
-    PowerLaw ambient_s, samples, error; ///< by accuracy
+    PowerLaw ambient_s, samples, error; ///< by accuracy; error with the samples that the last pilot run took, or with
+                                        ///< those that bring it in step with the accuracy
+    /// The last pilot run was content with the fewest samples possible: more are taken only from where the error would
+    /// exceed the accuracy.
+    bool fewest_taken = false;
     double fixed_s = 0, per_sample_s = 0;
 
+    double samples_at(double accuracy) const noexcept;
+    double error_at(double accuracy) const noexcept;
     /// @param items  sensors or pixels whose values are found; ambient light is that of the whole grid or view
     double seconds(double accuracy, double items) const noexcept;
 };

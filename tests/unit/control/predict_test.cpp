@@ -18,8 +18,8 @@ PilotRun made_up(double accuracy)
 TEST(CostModel, ContinuesTwoRunsByTheirOwnLaws)
 {
     const CostModel model = fit({made_up(0.04), made_up(0.02)});
-    EXPECT_NEAR(model.samples(0.01), 400, 1e-9);
-    EXPECT_NEAR(model.error(0.01), 0.009, 1e-12);
+    EXPECT_NEAR(model.samples_at(0.01), 400, 1e-9);
+    EXPECT_NEAR(model.error_at(0.01), 0.009, 1e-12);
     EXPECT_NEAR(model.ambient_s(0.01), 2, 1e-9);
     EXPECT_NEAR(model.seconds(0.01, 1000), 2 + 0.5 + 1e-6 * 1000 * 400, 1e-9);
 }
@@ -27,8 +27,8 @@ TEST(CostModel, ContinuesTwoRunsByTheirOwnLaws)
 TEST(CostModel, OfOneRunAssumesThatWorkGrowsByTheInverseSquare)
 {
     const CostModel model = fit({made_up(0.02)});
-    EXPECT_NEAR(model.samples(0.01), 400, 1e-9);
-    EXPECT_NEAR(model.error(0.01), 0.009, 1e-12);
+    EXPECT_NEAR(model.samples_at(0.01), 400, 1e-9);
+    EXPECT_NEAR(model.error_at(0.01), 0.009, 1e-12);
 }
 
 TEST(CostModel, NoiseInThePilotDoesNotRunAway)
@@ -38,11 +38,23 @@ TEST(CostModel, NoiseInThePilotDoesNotRunAway)
     odd.error = 0.5;  // and worse
     odd.ambient_s = 1e6;
     const CostModel model = fit({made_up(0.04), odd});
-    EXPECT_LE(model.samples(0.01), 10 * 8);
-    EXPECT_LE(model.error(0.01), 0.5);
+    EXPECT_LE(model.samples_at(0.01), 10 * 8);
+    EXPECT_LE(model.error_at(0.01), 0.5);
     EXPECT_LE(model.ambient_s(0.01), 8e6);
     for (const double accuracy : {1e-4, 0.01, 0.5})
         EXPECT_TRUE(std::isfinite(model.seconds(accuracy, 1e9)));
+}
+
+TEST(CostModel, FewestSamplesSufficeUntilTheErrorWouldExceedTheAccuracy)
+{
+    PilotRun easy = made_up(0.04);
+    easy.samples = 8;
+    easy.error = 0.01; // falls with the square root of the accuracy: 0.005 at 0.01, 0.00125 at 0.000625
+    const CostModel model = fit({easy});
+    EXPECT_NEAR(model.samples_at(0.01), 8, 1e-9);
+    EXPECT_NEAR(model.error_at(0.01), 0.005, 1e-9);
+    EXPECT_NEAR(model.samples_at(0.000625), 8 * 4, 1e-6);
+    EXPECT_NEAR(model.error_at(0.000625), 0.000625, 1e-9);
 }
 
 TEST(AccuracyWithin, IsWhatTheTimeBuys)
@@ -97,9 +109,9 @@ SensorGrid line_of_sensors(int count)
 TEST(Predict, CostAndErrorOfAMapAreRightWithinAFactorOfTwo)
 {
     const Simulation simulation(lamp_room());
-    const SensorGrid grid = line_of_sensors(400);
+    const SensorGrid grid = line_of_sensors(200);
     GridSettings settings;
-    settings.accuracy = 0.004;
+    settings.accuracy = 0.01;
     settings.threads = 1;
     const Prediction expected = predict(simulation, grid, settings, 0.3);
     const double start = process_cpu_seconds();
@@ -118,10 +130,10 @@ TEST(Predict, CostOfAPictureIsRightWithinAFactorOfTwoAndARegionCostsLess)
     view.position = {-2, 0, 0};
     view.direction = {1, 0, 0};
     PictureSettings settings;
-    settings.width = settings.height = 240;
-    settings.accuracy = 0.02;
+    settings.width = settings.height = 144;
+    settings.accuracy = 0.1;
     settings.threads = 1;
-    const Prediction expected = predict(simulation, view, settings, 0.5);
+    const Prediction expected = predict(simulation, view, settings, 0.2);
     const double start = process_cpu_seconds();
     const PictureResult result = simulation.render(view, settings);
     const double reached = process_cpu_seconds() - start;
@@ -129,8 +141,8 @@ TEST(Predict, CostOfAPictureIsRightWithinAFactorOfTwoAndARegionCostsLess)
     EXPECT_LT(expected.cpu_seconds, 2 * reached);
     EXPECT_GT(expected.error, 0.5 * result.median_relative_error);
     EXPECT_LT(expected.error, 2 * result.median_relative_error);
-    settings.region = {100, 100, 40, 40};
-    EXPECT_LT(predict(simulation, view, settings, 0.5).cpu_seconds, expected.cpu_seconds);
+    settings.region = {50, 50, 40, 40};
+    EXPECT_LT(predict(simulation, view, settings, 0.2).cpu_seconds, expected.cpu_seconds);
 }
 
 TEST(Predict, TheSamplesThatWereGivenAreTaken)
