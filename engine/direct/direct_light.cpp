@@ -13,7 +13,7 @@ constexpr double hopeless = 1e-3;
 
 /// Up to so many lamps the potentials of all are summed: they say more than the bounds of a tree, and cost less than a
 /// shadow ray.
-constexpr std::size_t most_summed_lamps = 32;
+constexpr std::size_t most_summed_lamps = 128;
 
 } // namespace
 

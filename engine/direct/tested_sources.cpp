@@ -9,13 +9,16 @@
 namespace lightwell {
 namespace {
 
-/// The first shadow rays to a source, which only decide how many follow: were they part of the sum, their agreement
-/// would bias it.
-constexpr int probes = 4;
-/// Share of the rays that a source gets when the probes agree.
-constexpr int agreeing_divisor = 4;
+/// The first shadow rays to a source, to its rim, where every straight shadow begins; more of them for a source that
+/// would get many rays. They only decide how many follow: were they part of the sum, their agreement would bias it.
+constexpr int few_probes = 4, most_probes = 8, many_rays = 32;
+/// A source that all probes see gets so many times fewer rays. Where they see none it gets no fewer: what a dark place
+/// misses is all the light it has.
+constexpr int visible_divisor = 8;
 /// Most shadow rays to one source, of one kind.
-constexpr int most_rays_at_all = 64;
+constexpr int most_rays_at_all = 256;
+/// Most pieces of a source without a closed form: finer ones would say no more about its irradiance.
+constexpr int most_pieces = 64;
 /// Weight of irradiance beside radiance in a potential: black surfaces still want to know what falls on them.
 constexpr double irradiance_part = 0.05 / pi;
 /// A potential by the middle of a source may miss what its edge gives: not below this share of a safe estimate.
@@ -36,6 +39,24 @@ int power_of_two(double wanted, int most)
 {
     const double clamped = std::clamp(wanted, 1.0, static_cast<double>(std::min(most, most_rays_at_all)));
     return static_cast<int>(std::bit_floor(static_cast<unsigned>(clamped)));
+}
+
+/// A point near the boundary of the unit square, which all shapes map to their rim or their edges.
+/// @param turn  [0, 1)
+UnitSquare on_rim(double turn)
+{
+    constexpr double inset = 0.01;
+    const double along = inset + (1 - 2 * inset) * (4 * turn - std::floor(4 * turn));
+    switch (static_cast<int>(4 * turn)) {
+    case 0:
+        return {along, inset};
+    case 1:
+        return {1 - inset, along};
+    case 2:
+        return {1 - along, 1 - inset};
+    default:
+        return {inset, 1 - along};
+    }
 }
 
 /// One for each thread, so that gathering takes no memory.
@@ -186,6 +207,9 @@ void TestedSources::find_candidates()
         auto& found = reused<LampTree::Representative>();
         context_.sources.lamp_tree().cut({shares_.from, shares_.normal, shares_.transmits}, settings.lamp_groups,
                                          random_.one(), found);
+        // Of very many lamps, the chosen ones lie far apart in memory: asked for together, they arrive together.
+        for (const LampTree::Representative& r : found)
+            context_.sources.lamps()[static_cast<std::size_t>(r.lamp)].prefetch();
         for (const LampTree::Representative& r : found)
             add_lamp(static_cast<std::size_t>(r.lamp), 1 / r.probability);
     } else {
@@ -203,7 +227,7 @@ void TestedSources::find_candidates()
 int TestedSources::pieces(const Candidate& c) const noexcept
 {
     const double along = c.size / context_.settings.subdivision;
-    return c.closed_form ? 1 : power_of_two(along * along, most_rays_at_all);
+    return c.closed_form ? 1 : power_of_two(along * along, most_pieces);
 }
 
 int TestedSources::rays_for(const Candidate& c) const noexcept
@@ -256,21 +280,37 @@ void TestedSources::test_sample(const Candidate& c, const SourceSample& sample, 
                             mis_weight(c, sample.density_per_sr, local);
 }
 
+TestedSources::Tested TestedSources::probe(const Candidate& c, int probes)
+{
+    UnitSquare points[most_probes];
+    const double offset = random_.one();
+    for (int i = 0; i < probes; ++i)
+        points[i] = on_rim((i + offset) / probes);
+    return trace(c, points, probes);
+}
+
 TestedSources::Tested TestedSources::trace(const Candidate& c, int count)
 {
-    UnitSquare points[most_rays_at_all];
-    SourceSample samples[most_rays_at_all];
-    random_.pairs(count, points);
+    auto& points = reused<UnitSquare>();
+    points.resize(static_cast<std::size_t>(count));
+    random_.pairs(count, points.data());
+    return trace(c, points.data(), count);
+}
+
+TestedSources::Tested TestedSources::trace(const Candidate& c, const UnitSquare* points, int count)
+{
+    auto& samples = reused<SourceSample>();
+    samples.resize(static_cast<std::size_t>(count));
     if (is_lamp(c)) {
-        context_.sources.lamps()[c.source].sample(shares_.from, points, count, samples);
+        context_.sources.lamps()[c.source].sample(shares_.from, points, count, samples.data());
     } else {
         const SunSource& sun = context_.sources.suns()[c.source - lamps_];
         for (int i = 0; i < count; ++i)
-            samples[i] = sun.sample(points[i]);
+            samples[static_cast<std::size_t>(i)] = sun.sample(points[i]);
     }
     Tested tested;
-    for (int i = 0; i < count; ++i)
-        test_sample(c, samples[i], tested);
+    for (const SourceSample& sample : samples)
+        test_sample(c, sample, tested);
     return tested;
 }
 
@@ -279,11 +319,8 @@ TestedSources::Light TestedSources::test(Candidate& c)
     if (c.rough)
         find_projected(c);
     int count = rays_for(c);
-    if (count > probes) {
-        const Tested first = trace(c, probes);
-        if (first.blocked == 0 || first.blocked == first.rays)
-            count = std::max(count / agreeing_divisor, pieces(c));
-    }
+    if (count > few_probes && probe(c, count < many_rays ? few_probes : most_probes).blocked == 0)
+        count = std::max(count / visible_divisor, pieces(c));
     const Tested tested = trace(c, count);
     // A mean over the samples; where the whole is known, the visible share of it.
     const auto scale = [&](Side side) {

@@ -64,7 +64,9 @@ private:
     double mis_weight(const Candidate& candidate, double density_per_sr, const Direction& local) const noexcept;
     double highlight_potential(const Candidate& candidate, const Direction& to_middle, Side side) const noexcept;
     void test_sample(const Candidate& candidate, const SourceSample& sample, Tested& tested);
+    Tested probe(const Candidate& candidate, int probes);
     Tested trace(const Candidate& candidate, int count);
+    Tested trace(const Candidate& candidate, const UnitSquare* points, int count);
     Light test(Candidate& candidate);
     void add(const Light& light, double share);
     void add_untested(const AdaptiveOutcome& outcome);

@@ -8,7 +8,7 @@ namespace lightwell {
 namespace {
 
 /// What is turned almost away is still found now and then: the cosines are those of the middle.
-constexpr float least_cosine = 0.05f;
+constexpr float least_cosine = 0.05f, least_share = 0.2f;
 /// Rounding of the cosines by which nodes are left out, and of places in units of the tree.
 constexpr float rounding = 1e-5f;
 /// A group that is seen smaller than this (radius over distance) and faces one way gives about the same light from
@@ -177,15 +177,17 @@ float LampTree::importance(const Node& node, const Seen& from) noexcept
     float arriving = (from.normal_x * x + from.normal_y * y + from.normal_z * z) * per_distance;
     if (from.transmits)
         arriving = std::fabs(arriving);
-    arriving = cos_difference(arriving, sine_of(arriving), cosine, sine);
-    if (arriving <= -rounding)
+    const float most_arriving = cos_difference(arriving, sine_of(arriving), cosine, sine);
+    if (most_arriving <= -rounding)
         return 0;
     const float leaving = -(node.axis_x * x + node.axis_y * y + node.axis_z * z) * per_distance;
     const float within = cos_difference(leaving, sine_of(leaving), node.cos_spread, node.sin_spread);
     const float nearest = cos_difference(within, sine_of(within), cosine, sine);
     if (nearest <= node.cos_emission - rounding)
         return 0;
-    return node.strength * std::max(arriving, least_cosine) * std::max(nearest, least_cosine) / squared;
+    // The bounds decide what is left out; the cosines of the middle say better what the rest gives.
+    return node.strength * std::max(arriving, least_share * most_arriving + least_cosine) *
+           std::max(within, least_share * nearest + least_cosine) / squared;
 }
 
 bool LampTree::compact(const Node& node, const Seen& from) noexcept
