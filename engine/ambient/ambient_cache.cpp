@@ -43,7 +43,7 @@ void set_reach(AmbientRecord& record, const Hemisphere& mean, double footprint_m
                const CacheSettings& settings)
 {
     AmbientSite& site = record.site;
-    site.harmonic_m = std::min(harmonic_distance_m(mean), size_m);
+    site.harmonic_m = std::min(harmonic_distance_m(mean), open_share * size_m);
     const double base = settings.accuracy * site.harmonic_m;
     site.reach_m[0] = site.reach_m[1] = base;
     const double level = photopic(record.irradiance);
@@ -96,6 +96,7 @@ AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, const Hemis
     record.site.normal = place.normal;
     const Frame frame = frame_about(place.normal);
     record.site.axis = frame.x;
+    look_around(record.site, place, rays);
     int rows = 0, columns = 0;
     shape(std::max(8, settings.rays / replicates), rows, columns);
     const int each = rows * columns;
@@ -118,8 +119,8 @@ AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, const Hemis
             others += arrival.met_lamp ? 0 : 1;
             const auto cell = static_cast<std::size_t>(cell_of(u, mean));
             mean.radiance[cell] += (arrival.radiance + later / pi) / replicates;
-            mean.closeness_per_m[cell] += 1 / (arrival.distance_m * replicates);
-            add_horizon(record.site, direction, arrival.distance_m);
+            mean.closeness_per_m[cell] += 1 / (arrival.met.distance_m * replicates);
+            add_horizon(record.site, direction, arrival.met);
         }
         // How much of the hemisphere shows lamps is known better from shadow rays than from these.
         sum = others > 0 ? sum * (other_share / others) : Spectrum{};

@@ -34,11 +34,12 @@ AmbientSite surveyed(const SurfacePlace& place, const HemisphereRays& rays, doub
     for (std::uint32_t i = 0; i < survey_rays; ++i) {
         PathRandom random(mix_bits(settings.seed, survey_salt), place_bits(place), i);
         const Direction direction = hemisphere_direction(frame, random.pair());
-        const double distance = rays.distance_m(place, direction);
-        closeness += 1 / distance;
-        add_horizon(site, direction, distance);
+        const Met met = rays.meet(place, direction);
+        closeness += 1 / met.distance_m;
+        add_horizon(site, direction, met);
     }
-    site.harmonic_m = std::min(closeness > 0 ? survey_rays / closeness : infinity, size_m);
+    look_around(site, place, rays);
+    site.harmonic_m = std::min(closeness > 0 ? survey_rays / closeness : infinity, open_share * size_m);
     site.reach_m[0] = site.reach_m[1] = settings.reach_share * site.harmonic_m;
     return site;
 }
@@ -79,6 +80,18 @@ void make_linear(const Direction& normal, const Vec3* ways, std::size_t count, D
 }
 
 } // namespace
+
+void look_around(AmbientSite& site, const SurfacePlace& place, const HemisphereRays& rays)
+{
+    constexpr int rays_a_sector = 2;
+    constexpr double rise = 0.03; // tangent of the rays' slope: over the unevenness of the ground, not over a wall
+    const Frame frame = frame_about(site.normal);
+    for (int i = 0; i < rays_a_sector * horizon_sectors; ++i) {
+        const double turn = 2 * pi * (i + 0.5) / (rays_a_sector * horizon_sectors);
+        const Direction direction = normalized(frame.to_world({std::cos(turn), std::sin(turn), rise}));
+        add_horizon(site, direction, rays.meet(place, direction));
+    }
+}
 
 std::uint64_t place_bits(const SurfacePlace& place) noexcept
 {

@@ -87,6 +87,12 @@ private:
     BrightDiscs bright_;
 };
 
+/// Sends rays along the surface that tell a site's horizon.
+void look_around(AmbientSite& site, const SurfacePlace& place, const HemisphereRays& rays);
+
+/// Where nothing is near, a value holds over this share of the scene's size.
+inline constexpr double open_share = 0.1;
+
 /// A number that a place and its side always have, whoever asks first: the key of its random numbers.
 std::uint64_t place_bits(const SurfacePlace& place) noexcept;
 

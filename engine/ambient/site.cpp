@@ -10,8 +10,11 @@ namespace {
 
 /// Normals that differ by more are too far apart whatever the distance.
 constexpr double least_cosine = 0.94; // 20 degrees
-/// Offset out of the mean plane of site and place, as a share of the smaller reach, that still is the same surface.
-constexpr double most_offset = 0.1;
+/// Offset out of the mean plane of site and place, as a share of the distance between them, that still is the same
+/// surface: two places of a sphere have none. The floor of a room above open ground must not take the ground's light.
+constexpr double most_offset = 0.01;
+/// ... and, for places close to the site, as a share of the reach.
+constexpr double rounding = 1e-6;
 
 /// Sector of a direction about the normal, counted from frame_about(normal).x.
 std::size_t horizon_sector(const Frame& frame, const Vec3& way) noexcept
@@ -32,7 +35,7 @@ double site_distance(const AmbientSite& site, const Point& at, const Direction& 
 {
     const Vec3 way = at - site.position;
     const double longest = std::max(site.reach_m[0], site.reach_m[1]);
-    if (!(dot(way, way) < (1 + most_offset * most_offset) * longest * longest))
+    if (!(dot(way, way) < 1.01 * longest * longest))
         return infinity;
     const double cosine = dot(normal, site.normal);
     if (!(cosine > least_cosine))
@@ -44,21 +47,22 @@ double site_distance(const AmbientSite& site, const Point& at, const Direction& 
     if (!(squared < 1))
         return infinity;
     const double offset = 0.5 * (dot(way, normal) + dot(way, site.normal));
-    if (std::fabs(offset) > most_offset * std::min(site.reach_m[0], site.reach_m[1]))
-        return infinity;
     const double flat = length_across(way, site.normal);
+    if (std::fabs(offset) > most_offset * flat + rounding * longest)
+        return infinity;
     if (flat > site.least_horizon_m && flat > site.horizon_m[horizon_sector(frame_about(site.normal), way)])
         return infinity;
     return std::sqrt(squared);
 }
 
-void add_horizon(AmbientSite& site, const Direction& direction, double distance_m) noexcept
+void add_horizon(AmbientSite& site, const Direction& direction, const Met& met) noexcept
 {
     constexpr double steepest = 0.70710678118654752; // sine of 45 degrees: what stands higher hides nothing here
-    if (!std::isfinite(distance_m) || dot(direction, site.normal) > steepest)
+    if (!std::isfinite(met.distance_m) || dot(direction, site.normal) > steepest ||
+        dot(met.normal, site.normal) > least_cosine)
         return;
     float& horizon = site.horizon_m[horizon_sector(frame_about(site.normal), direction)];
-    horizon = std::min(horizon, static_cast<float>(distance_m * length_across(direction, site.normal)));
+    horizon = std::min(horizon, static_cast<float>(met.distance_m * length_across(direction, site.normal)));
     site.least_horizon_m = std::min(site.least_horizon_m, static_cast<double>(horizon));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/base/vector.h"
+#include "engine/transport/hemisphere_rays.h"
 
 #include <array>
 #include <limits>
@@ -32,7 +32,8 @@ struct AmbientSite {
 ///         place of the circle
 double site_distance(const AmbientSite& site, const Point& at, const Direction& normal) noexcept;
 
-/// Notes what a ray from the site met: what it met below 45 degrees may stand between the site and a place.
-void add_horizon(AmbientSite& site, const Direction& direction, double distance_m) noexcept;
+/// Notes what a ray from the site met: what it met below 45 degrees may stand between the site and a place, unless it
+/// is the surface itself that bends up.
+void add_horizon(AmbientSite& site, const Direction& direction, const Met& met) noexcept;
 
 } // namespace lightwell

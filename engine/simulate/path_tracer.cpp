@@ -39,6 +39,12 @@ DirectSettings quick_settings()
     return settings;
 }
 
+/// The normal on the side that a ray comes from.
+Direction facing(const Direction& normal, const Direction& ray)
+{
+    return dot(normal, ray) <= 0 ? normal : -normal;
+}
+
 bool is_diffuse(const Lobes& lobes)
 {
     return !lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black();
@@ -398,7 +404,7 @@ PathSample PathTracer::sample(const Ray& ray, int replicate, PathRandom& random)
     const Hit& first = *walk.first;
     result.met_surface = true;
     result.distance_m = length(first.position - ray.origin);
-    result.normal = dot(first.normal, ray.direction) <= 0 ? first.normal : -first.normal;
+    result.normal = facing(first.normal, ray.direction);
     // A surface without a diffuse lobe tells nothing about what falls on it: ask with a white sensor there.
     if (!walk.first_is_diffuse)
         result.irradiance = irradiance({first.position, result.normal, first.error_m}, replicate, random);
@@ -486,7 +492,7 @@ Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direct
     arrival.radiance = walk.radiance;
     arrival.met_lamp = walk.met_lamp;
     if (walk.first)
-        arrival.distance_m = length(walk.first->position - receiver.position);
+        arrival.met = {length(walk.first->position - receiver.position), facing(walk.first->normal, direction)};
     const SampledDirection aimed = guided ? bright->sample(discs, random.pair()) : SampledDirection{};
     const double cosine = cosine_density(aimed.direction);
     if (aimed.density_per_sr > 0 && cosine > 0) {
@@ -511,11 +517,13 @@ bool PathTracer::beside(const SurfacePlace& receiver, const Vec3& offset, double
     return true;
 }
 
-double PathTracer::distance_m(const SurfacePlace& receiver, const Direction& direction) const
+Met PathTracer::meet(const SurfacePlace& receiver, const Direction& direction) const
 {
     const Vertex vertex = white_vertex(receiver);
     Hit hit;
-    return rays_.closest({vertex.hit.leave(direction), direction, infinity}, hit) ? hit.t : infinity;
+    if (!rays_.closest({vertex.hit.leave(direction), direction, infinity}, hit))
+        return {};
+    return {hit.t, facing(hit.normal, direction)};
 }
 
 Spectrum PathTracer::light_of(const DirectLight& sources, const Vertex& vertex, const SourceKinds& kinds,

@@ -41,7 +41,7 @@ public:
     Arrival arrive(const SurfacePlace& receiver, const Direction& direction, PathRandom& random,
                    std::vector<Dependence>& dependences) const override;
     bool beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const override;
-    double distance_m(const SurfacePlace& receiver, const Direction& direction) const override;
+    Met meet(const SurfacePlace& receiver, const Direction& direction) const override;
     DirectIrradiance direct(const SurfacePlace& receiver, PathRandom& random) const override;
     /// The same with all the shadow rays that a result deserves.
     DirectIrradiance sensor_direct(const SurfacePlace& receiver, PathRandom& random) const;

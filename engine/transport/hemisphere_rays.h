@@ -21,11 +21,17 @@ struct Dependence {
     Spectrum weight;
 };
 
+/// What a ray meets first.
+struct Met {
+    double distance_m = infinity; ///< infinity: nothing
+    Direction normal{0, 0, 0};    ///< on the side that the ray came from
+};
+
 /// What one ray of a hemisphere brings to a receiver.
 struct Arrival {
-    double distance_m = infinity; ///< to what the ray met first
-    bool met_lamp = false;        ///< straight away: its light is direct and not counted here
-    Spectrum radiance;            ///< along the ray, W/(m^2 sr)
+    Met met;
+    bool met_lamp = false; ///< straight away: its light is direct and not counted here
+    Spectrum radiance;     ///< along the ray, W/(m^2 sr)
     /// One estimate of the receiver's ambient irradiance: the ray's light and a shadow ray to the sky, each with its
     /// weight, W/m^2. Without what the dependences add.
     Spectrum irradiance;
@@ -50,8 +56,7 @@ public:
     /// @param offset  in the receiver's plane
     /// @param lift_m  how far above the plane the way there must be free, and the place may lie below or above
     virtual bool beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const = 0;
-    /// Distance to what a ray meets; infinity for nothing.
-    virtual double distance_m(const SurfacePlace& receiver, const Direction& direction) const = 0;
+    virtual Met meet(const SurfacePlace& receiver, const Direction& direction) const = 0;
     virtual DirectIrradiance direct(const SurfacePlace& receiver, PathRandom& random) const = 0;
 };
 
