@@ -65,12 +65,12 @@ void set_reach(AmbientRecord& record, const Hemisphere& mean, double footprint_m
         reach = std::max(reach, least_footprints * footprint_m);
 }
 
-double lamp_share_at(const SurfacePlace& place, const HemisphereRays& rays, std::uint64_t seed)
+double lamp_share_at(const SurfacePlace& place, std::uint64_t key, const HemisphereRays& rays, std::uint64_t seed)
 {
     constexpr std::uint32_t tests = 4;
     double share = 0;
     for (std::uint32_t n = 0; n < tests; ++n) {
-        PathRandom random(mix_bits(seed, direct_salt), place_bits(place), n);
+        PathRandom random(mix_bits(seed, direct_salt), key, n);
         share += rays.direct(place, random).lamp_share / tests;
     }
     return share;
@@ -87,8 +87,8 @@ bool AmbientCache::covers(const SurfacePlace& place) const noexcept
     return covered;
 }
 
-AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, const HemisphereRays& rays, double size_m,
-                                  const CacheSettings& settings) const
+AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, std::uint64_t key, const HemisphereRays& rays,
+                                  double size_m, const CacheSettings& settings) const
 {
     const SurfacePlace& place = candidate.place;
     AmbientRecord record;
@@ -103,13 +103,12 @@ AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, const Hemis
     Hemisphere mean(frame, rows, columns);
     std::array<double, replicates> photopic_of{};
     std::vector<Dependence> dependences;
-    const double other_share = 1 - std::min(1.0, lamp_share_at(place, rays, settings.seed));
+    const double other_share = 1 - std::min(1.0, lamp_share_at(place, key, rays, settings.seed));
     for (int r = 0; r < replicates; ++r) {
         Spectrum sum;
         int others = 0;
         for (std::uint32_t n = 0; n < static_cast<std::uint32_t>(each); ++n) {
-            PathRandom random(mix_bits(mix_bits(settings.seed, record_salt), static_cast<std::uint64_t>(r)),
-                              place_bits(place), n);
+            PathRandom random(mix_bits(mix_bits(settings.seed, record_salt), static_cast<std::uint64_t>(r)), key, n);
             const UnitSquare u = random.pair();
             const Direction direction = hemisphere_direction(frame, u);
             dependences.clear();
@@ -176,8 +175,10 @@ std::size_t AmbientCache::grow(const std::vector<AmbientCandidate>& candidates, 
         if (wanted[i])
             chosen.push_back(i);
     std::vector<AmbientRecord> made(chosen.size());
-    parallel_for(chosen.size(), settings.threads,
-                 [&](std::size_t k) { made[k] = trace(candidates[chosen[k]], rays, size_m, settings); });
+    parallel_for(chosen.size(), settings.threads, [&](std::size_t k) {
+        settings.check();
+        made[k] = trace(candidates[chosen[k]], records_.size() + k, rays, size_m, settings);
+    });
     insert(std::move(made));
     return chosen.size();
 }

@@ -3,6 +3,8 @@
 #include "engine/ambient/deep_field.h"
 #include "engine/ambient/hemisphere.h"
 
+#include <functional>
+
 namespace lightwell {
 
 /// Ambient irradiance at one place, with what is needed to use it around there.
@@ -21,8 +23,9 @@ struct CacheSettings {
     std::size_t most_records = 200000;
     std::uint64_t seed = 1;
     int threads = 0;
-    bool gradients = true; ///< false: records are averaged as they are
-    bool hessian = true;   ///< false: reach follows the harmonic mean distance alone
+    std::function<void()> check = [] {}; ///< called often, from all threads: throws to stop
+    bool gradients = true;               ///< false: records are averaged as they are
+    bool hessian = true;                 ///< false: reach follows the harmonic mean distance alone
 };
 
 /// A place where the cache will be asked.
@@ -59,7 +62,8 @@ public:
 
 private:
     bool covers(const SurfacePlace& place) const noexcept;
-    AmbientRecord trace(const AmbientCandidate& candidate, const HemisphereRays& rays, double size_m,
+    /// @param key  of its random numbers: its place in the order of records, which no shift or scale changes
+    AmbientRecord trace(const AmbientCandidate& candidate, std::uint64_t key, const HemisphereRays& rays, double size_m,
                         const CacheSettings& settings) const;
     void clamp_to_neighbours(AmbientRecord& record);
     void insert(std::vector<AmbientRecord>&& records);

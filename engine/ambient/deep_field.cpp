@@ -6,7 +6,6 @@
 #include "engine/sampling/warps.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace lightwell {
@@ -23,7 +22,8 @@ constexpr std::size_t first_batch = 64, largest_batch = 1024;
 constexpr std::uint64_t survey_salt = 0x73757276, ray_salt = 0x72617973, direct_salt = 0x64697265,
                         start_salt = 0x73746172;
 
-AmbientSite surveyed(const SurfacePlace& place, const HemisphereRays& rays, double size_m, const DeepSettings& settings)
+AmbientSite surveyed(const SurfacePlace& place, std::uint64_t key, const HemisphereRays& rays, double size_m,
+                     const DeepSettings& settings)
 {
     AmbientSite site;
     site.position = place.position;
@@ -32,7 +32,7 @@ AmbientSite surveyed(const SurfacePlace& place, const HemisphereRays& rays, doub
     site.axis = frame.x;
     double closeness = 0;
     for (std::uint32_t i = 0; i < survey_rays; ++i) {
-        PathRandom random(mix_bits(settings.seed, survey_salt), place_bits(place), i);
+        PathRandom random(mix_bits(settings.seed, survey_salt), key, i);
         const Direction direction = hemisphere_direction(frame, random.pair());
         const Met met = rays.meet(place, direction);
         closeness += 1 / met.distance_m;
@@ -93,13 +93,6 @@ void look_around(AmbientSite& site, const SurfacePlace& place, const HemisphereR
     }
 }
 
-std::uint64_t place_bits(const SurfacePlace& place) noexcept
-{
-    const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v + 0.0); };
-    const auto three = [&](const Vec3& v) { return mix_bits(mix_bits(bits(v.x), bits(v.y)), bits(v.z)); };
-    return mix_bits(three(place.position), three(place.normal));
-}
-
 bool DeepField::covers(const Point& at, const Direction& normal) const noexcept
 {
     bool covered = false;
@@ -119,7 +112,7 @@ void DeepField::place(const std::vector<SurfacePlace>& candidates, const Hemisph
         parallel_for(count, settings.threads, [&](std::size_t i) {
             const SurfacePlace& r = candidates[first + i];
             if (!covers(r.position, r.normal))
-                surveys[i] = surveyed(r, rays, size_m, settings);
+                surveys[i] = surveyed(r, first + i, rays, size_m, settings);
         });
         const std::size_t before = sites_.size();
         for (std::size_t i = 0; i < count && sites_.size() < settings.most_sites; ++i) {
@@ -161,7 +154,7 @@ std::vector<DeepField::Start> DeepField::starts(std::size_t site, const Hemisphe
     std::vector<Start> found;
     double total = 0;
     for (std::uint32_t n = 0; n < count; ++n) {
-        PathRandom random(mix_bits(seed, start_salt), place_bits(places_[site]), n);
+        PathRandom random(mix_bits(seed, start_salt), site, n);
         const DiscPoint disc = uniform_disc(random.pair());
         const Vec3 offset = (frame.x * disc.x + frame.y * disc.y) * s.reach_m[0];
         SurfacePlace there;
@@ -193,7 +186,7 @@ void DeepField::trace_row(std::size_t site, const std::vector<Start>& from, cons
         // Each start gets an equal share of the rays, to one.
         const std::size_t at = n % from.size();
         const double weight = from[at].weight / static_cast<double>((which.count - at + from.size() - 1) / from.size());
-        PathRandom random(mix_bits(which.seed, which.replicate), place_bits(places_[site]), n);
+        PathRandom random(mix_bits(which.seed, which.replicate), site, n);
         const Direction direction = hemisphere_direction(frame_about(from[at].place.normal), random.pair());
         arrived.clear();
         const Arrival arrival = rays.arrive(from[at].place, direction, random, arrived);
@@ -221,7 +214,7 @@ void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const H
         lit[i] = {sites_[i].position, sites_[i].normal, covered_share * sites_[i].reach_m[0], 0};
         double squares = 0;
         for (std::uint32_t k = 0; k < from[i].size(); ++k) {
-            PathRandom random(mix_bits(settings.seed, direct_salt), place_bits(places_[i]), k);
+            PathRandom random(mix_bits(settings.seed, direct_salt), i, k);
             const DirectIrradiance direct = rays.direct(from[i][k].place, random);
             direct_[i] += direct.lamps * from[i][k].weight;
             squares += photopic(direct.lamps) * photopic(direct.lamps) * from[i][k].weight;
@@ -256,6 +249,7 @@ void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& setti
     find_direct(from, rays, settings, other_share);
     // The rays use the direct light of all sites.
     parallel_for(count, settings.threads, [&](std::size_t i) {
+        settings.check();
         for (std::size_t r = 0; r < replicates; ++r)
             trace_row(i, from[i], rays, other_share[i], {mix_bits(settings.seed, ray_salt), r, each}, systems[r]);
     });

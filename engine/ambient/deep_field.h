@@ -8,6 +8,7 @@
 #include "engine/transport/hemisphere_rays.h"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace lightwell {
@@ -18,6 +19,7 @@ struct DeepSettings {
     std::size_t most_sites = 4000;
     std::uint64_t seed = 1;
     int threads = 0;
+    std::function<void()> check = [] {}; ///< called often, from all threads: throws to stop
 };
 
 /// Ambient irradiance everywhere, coarsely: all bounces but the first are read from it. Sites spread over the
@@ -92,8 +94,5 @@ void look_around(AmbientSite& site, const SurfacePlace& place, const HemisphereR
 
 /// Where nothing is near, a value holds over this share of the scene's size.
 inline constexpr double open_share = 0.1;
-
-/// A number that a place and its side always have, whoever asks first: the key of its random numbers.
-std::uint64_t place_bits(const SurfacePlace& place) noexcept;
 
 } // namespace lightwell

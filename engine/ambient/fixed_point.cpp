@@ -6,7 +6,7 @@
 namespace lightwell {
 namespace {
 
-constexpr double wanted_residual = 1e-10;
+constexpr double wanted_residual = 1e-12;
 /// Directions kept before a restart, and restarts: far more than rooms need (20 to 40 directions at 0.99).
 constexpr std::size_t most_directions = 60;
 constexpr int most_restarts = 20;

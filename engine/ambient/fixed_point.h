@@ -18,7 +18,7 @@ void merge_dependences(std::vector<Dependence>& row);
 
 /// Solves all channels. Rows that sum to less than 1 (surfaces that absorb something) have one solution; near 1, as
 /// in a closed room of reflectance 0.999, summing bounces would take thousands of rounds, this takes tens.
-/// Error: relative residual 1e-10 of the largest value, or the best reached
+/// Error: relative residual 1e-12 of the largest value, or the best reached
 /// Source  Saad, Schultz 1986 (GMRES), restarted
 std::vector<Spectrum> solve(const FixedPoint& system);
 

@@ -271,6 +271,7 @@ void TestedSources::test_sample(const Candidate& c, const SourceSample& sample, 
         return;
     }
     tested.visible += photopic(seen) * cosine;
+    tested.clear += seen == Spectrum::grey(1) ? cosine : 0;
     const Spectrum light = sample.radiance * seen * cosine;
     tested.reflected[side] += light * diffuse_value(local);
     if (side == near_side)
@@ -333,7 +334,7 @@ TestedSources::Light TestedSources::test(Candidate& c)
                       tested.highlight / tested.samples) *
                      c.weight;
     light.visible_share = tested.all > 0 ? std::min(1.0, tested.visible / tested.all) : 0;
-    light.hemisphere_share = hemisphere_share(c) * light.visible_share;
+    light.hemisphere_share = tested.all > 0 ? hemisphere_share(c) * std::min(1.0, tested.clear / tested.all) : 0;
     if (context_.generation.counts != nullptr)
         context_.generation.counts->record(c.source, light.visible_share);
     return light;

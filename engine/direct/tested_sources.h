@@ -43,8 +43,8 @@ private:
     struct Tested {
         Spectrum reflected[2], arriving; ///< diffusely to the viewer by side of the source; on the near side
         Spectrum highlight;
-        double cosines[2] = {0, 0}; ///< of all samples, visible or not, over density
-        double visible = 0, all = 0;
+        double cosines[2] = {0, 0};             ///< of all samples, visible or not, over density
+        double visible = 0, clear = 0, all = 0; ///< clear: nothing is in the way, not even a pane
         int rays = 0, blocked = 0, samples = 0;
     };
     struct Light {

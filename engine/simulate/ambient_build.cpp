@@ -37,11 +37,13 @@ AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std:
     return effort;
 }
 
-AmbientBuild::AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques)
+AmbientBuild::AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques,
+                           const std::function<void()>& check)
     : parts_(parts), effort_(effort), cache_(deep_),
       tracer_(parts.scene, parts.rays, parts.sources, parts.virtual_sources,
               {techniques.cache ? &cache_ : nullptr, techniques.deep_field ? &deep_ : nullptr})
 {
+    effort_.deep.check = effort_.cache.check = check;
 }
 
 void AmbientBuild::build_deep(std::size_t count, const Start& start)
@@ -63,9 +65,9 @@ void AmbientBuild::build_deep(std::size_t count, const Start& start)
     deep_.solve_with(tracer_, effort_.deep);
 }
 
-void AmbientBuild::grow(const std::vector<AmbientCandidate>& candidates)
+std::size_t AmbientBuild::grow(const std::vector<AmbientCandidate>& candidates)
 {
-    cache_.grow(candidates, tracer_, parts_.box.diagonal(), effort_.cache);
+    return cache_.grow(candidates, tracer_, parts_.box.diagonal(), effort_.cache);
 }
 
 } // namespace lightwell

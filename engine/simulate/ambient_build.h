@@ -15,15 +15,17 @@ AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std:
 /// Ambient light of one picture or grid, and the tracer that uses it.
 class AmbientBuild {
 public:
-    AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques);
+    /// @param check  called often, from all threads: throws to stop
+    AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques,
+                 const std::function<void()>& check);
     AmbientBuild(const AmbientBuild&) = delete;
     AmbientBuild& operator=(const AmbientBuild&) = delete;
 
     /// A ray that starts at the i-th of `count` pixels or sensors; false: there is none.
     using Start = std::function<bool(std::size_t i, PathRandom& random, Ray& ray)>;
     void build_deep(std::size_t count, const Start& start);
-    /// One generation of records at these places.
-    void grow(const std::vector<AmbientCandidate>& candidates);
+    /// One generation of records at these places. @return records added
+    std::size_t grow(const std::vector<AmbientCandidate>& candidates);
 
     /// Uses what has been built so far.
     const PathTracer& tracer() const noexcept { return tracer_; }

@@ -145,7 +145,10 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         ambient_effort(settings.accuracy, settings.techniques, settings.seed, settings.threads);
     Techniques techniques = settings.techniques;
     techniques.cache = techniques.cache && receivers.size() >= many_sensors;
-    AmbientBuild ambient(*parts_, effort, techniques);
+    AmbientBuild ambient(*parts_, effort, techniques, [&] {
+        if (progress.stop())
+            throw Cancelled{};
+    });
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
     if (!plain) {
         progress.tell("ambient light, grid " + grid.name, 0);

@@ -74,7 +74,7 @@ struct PathTracer::Walk {
     double surface_weight = 1;  ///< of an arrival's light from surfaces that scatter, met straight away
     bool surfaces_only = false; ///< an arrival aimed at such a surface: sky and mirrored light are not its business
     bool straight_from_receiver = false; ///< of an arrival, before anything bends it
-    bool met_lamp = false;               ///< of an arrival: straight away
+    bool met_lamp = false;               ///< of an arrival: with nothing in between
     bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
     int replicate = 0;
     std::vector<Dependence>* dependences = nullptr; ///< of an arrival: what comes from the deep field is not known yet
@@ -172,7 +172,7 @@ void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& materi
         const bool by_shadow_rays_alone =
             std::holds_alternative<Illum>(material) && (has_image || !walk.chain.mirrored());
         if (answered(walk, false, lamp) || by_shadow_rays_alone) {
-            walk.met_lamp = walk.straight_from_receiver;
+            walk.met_lamp = walk.straight_from_receiver && walk.scatterings == 1;
             return;
         }
         if (has_image)

@@ -14,7 +14,9 @@ namespace {
 constexpr int pilot_columns = 24, pilot_rows = 16, check_columns = 8, check_rows = 6;
 constexpr int check_paths = 16 * replicates;
 /// Records of ambient light are looked for at every so many pixels, then between them.
-constexpr int first_stride = 32, last_stride = 4;
+constexpr int first_stride = 32, second_stride = 16, last_stride = 4;
+/// From the second stride on, no more records are made where so large a share of the places would need one.
+constexpr double most_new = 0.7;
 
 Picture empty_picture(int width, int height)
 {
@@ -121,8 +123,11 @@ void build(AmbientBuild& ambient, const Sights& sights, const Techniques& techni
         for (const auto& row : of_row)
             candidates.insert(candidates.end(), row.begin(), row.end());
         teller.check();
-        ambient.grow(candidates);
+        // Leaves and needles have a place of their own at every pixel: records would be used once.
+        const bool fragmented = ambient.grow(candidates) > most_new * static_cast<double>(candidates.size());
         teller.done_one();
+        if (fragmented && stride <= second_stride)
+            return;
     }
 }
 
@@ -221,7 +226,10 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
     AmbientBuild ambient(*parts_,
                          ambient_effort(settings.accuracy, settings.techniques, settings.seed, settings.threads),
-                         settings.techniques);
+                         settings.techniques, [&] {
+                             if (progress.stop())
+                                 throw Cancelled{};
+                         });
     if (!plain) {
         Teller teller(progress, "ambient light, view " + view.name, 5);
         build(ambient, {camera, parts_->tracer, settings.width, settings.height}, settings.techniques, settings.threads,

@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t most_spherical_triangles = 8;
 /// Flat meshes of more triangles than this have no closed form: it would take longer than shadow rays.
 constexpr std::size_t most_summed_triangles = 16;
-/// Distance over radius from which on a source counts as a point: its irradiance is then right to 4e-6.
-constexpr double far_away = 600;
+/// Distance over radius from which on a source counts as a point: its irradiance is then right to 1e-8, where the sum over a
+/// polygon's edges begins to lose as many digits.
+constexpr double far_away = 1e4;
 
 struct PointOnSource {
     Point point;
@@ -220,9 +221,6 @@ std::optional<double> LocalSource::projected_solid_angle_sr(const Point& at, con
     const Vec3 to_centre = centre_ - at;
     if (flat_ && dot(facing_, to_centre) >= 0)
         return 0.0;
-    const double distance = length(to_centre);
-    if (distance > far_away * radius_m_ && dot(normal, to_centre) > radius_m_)
-        return middle_solid_angle_sr(at, normal);
     if (const auto* ball = std::get_if<SphereEmitter>(&shape_))
         return sphere_irradiance(to_centre, ball->sphere.radius, normal);
     if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
@@ -232,6 +230,9 @@ std::optional<double> LocalSource::projected_solid_angle_sr(const Point& at, con
         return disc_irradiance(to_centre, facing_, ring->ring.outer_radius, normal) -
                disc_irradiance(to_centre, facing_, ring->ring.inner_radius, normal);
     }
+    const double distance = length(to_centre);
+    if (distance > far_away * radius_m_ && dot(normal, to_centre) > radius_m_)
+        return middle_solid_angle_sr(at, normal);
     const auto& flat = std::get<FlatEmitter>(shape_);
     const Vec3* c = flat.corners.data();
     if (flat.rectangle) {

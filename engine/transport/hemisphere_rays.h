@@ -30,7 +30,7 @@ struct Met {
 /// What one ray of a hemisphere brings to a receiver.
 struct Arrival {
     Met met;
-    bool met_lamp = false; ///< straight away: its light is direct and not counted here
+    bool met_lamp = false; ///< with nothing in between: its light is direct and not counted here
     Spectrum radiance;     ///< along the ray, W/(m^2 sr)
     /// One estimate of the receiver's ambient irradiance: the ray's light and a shadow ray to the sky, each with its
     /// weight, W/m^2. Without what the dependences add.

@@ -17,7 +17,6 @@ import pathlib
 import sys
 import tempfile
 
-import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 from leak_scenes import SCENES
@@ -31,16 +30,19 @@ PICTURE = ["--size", "320x240", "--png"]
 
 def compare(found, right):
     """@return  measures of one setting, differences reduced by three standard errors of both"""
-    value, error = (np.array(found[name]) for name in ("illuminance_lx", "error_lx"))
-    truth, truth_error = (np.array(right[name]) for name in ("illuminance_lx", "error_lx"))
-    scale = np.maximum(truth, DARKEST_SHARE * truth.mean())
-    difference = value - truth
-    beyond = np.maximum(np.abs(difference) - SIGMAS * np.hypot(error, truth_error), 0)
-    worst = int(np.argmax(beyond / scale))
-    return {"rms": float(np.sqrt(np.mean((difference / scale) ** 2))), "mbe": float(np.mean(difference / scale)),
-            "largest_beyond_noise": float((beyond / scale)[worst]), "worst_point": worst,
-            "worst_found_lx": float(value[worst]), "worst_right_lx": float(truth[worst]),
-            "brightest_beyond_of_mean": float(beyond.max() / truth.mean()), "truth_noise": float(np.mean(truth_error / scale))}
+    value, error = found["illuminance_lx"], found["error_lx"]
+    truth, truth_error = right["illuminance_lx"], right["error_lx"]
+    mean = statistics.fmean(truth)
+    scale = [max(t, DARKEST_SHARE * mean) for t in truth]
+    difference = [v - t for v, t in zip(value, truth)]
+    beyond = [max(abs(d) - SIGMAS * math.hypot(e, te), 0) for d, e, te in zip(difference, error, truth_error)]
+    relative = [d / s for d, s in zip(difference, scale)]
+    worst = max(range(len(value)), key=lambda i: beyond[i] / scale[i])
+    return {"rms": math.sqrt(statistics.fmean(r * r for r in relative)), "mbe": statistics.fmean(relative),
+            "largest_beyond_noise": beyond[worst] / scale[worst], "worst_point": worst,
+            "worst_found_lx": value[worst], "worst_right_lx": truth[worst],
+            "brightest_beyond_of_mean": max(beyond) / mean,
+            "truth_noise": statistics.fmean(e / s for e, s in zip(truth_error, scale))}
 
 
 def pictures(name, scene, view, settings, plain, folder):
