@@ -16,11 +16,32 @@ constexpr double most_offset = 0.01;
 /// ... and, for places close to the site, as a share of the reach.
 constexpr double rounding = 1e-6;
 
-/// Sector of a direction about the normal, counted from frame_about(normal).x.
+/// Azimuth about the normal in sectors, counted from -frame_about(normal).x.
+double sector_turn(const Frame& frame, const Vec3& way) noexcept
+{
+    return (std::atan2(dot(way, frame.y), dot(way, frame.x)) / (2 * pi) + 0.5) * horizon_sectors;
+}
+
 std::size_t horizon_sector(const Frame& frame, const Vec3& way) noexcept
 {
-    const double turn = std::atan2(dot(way, frame.y), dot(way, frame.x)) / (2 * pi) + 0.5;
-    return static_cast<std::size_t>(std::min(horizon_sectors - 1, static_cast<int>(turn * horizon_sectors)));
+    return static_cast<std::size_t>(std::min(horizon_sectors - 1, static_cast<int>(sector_turn(frame, way))));
+}
+
+/// Whether something that stands on the surface may lie between the site and a place this far away. Rays go out at a
+/// quarter and at three quarters of each sector. A straight wall is met nearer by the next ray towards its foot, which
+/// is in the sector of the place or in the one nearest to it, than at the place's own azimuth; next to the foot it is
+/// met farther away by the cosine of half the angle between two rays.
+bool beyond_horizon(const AmbientSite& site, const Vec3& way, double flat_m) noexcept
+{
+    constexpr double next_to_foot = 0.995; // cosine of 5.625 degrees
+    if (!(flat_m > next_to_foot * site.least_horizon_m))
+        return false;
+    const Frame frame = frame_about(site.normal);
+    const std::size_t sector = horizon_sector(frame, way);
+    const bool upper_half = std::fmod(sector_turn(frame, way), 1.0) > 0.5;
+    const std::size_t beside = (sector + (upper_half ? 1 : horizon_sectors - 1)) % horizon_sectors;
+    const auto nearest = static_cast<double>(std::min(site.horizon_m[sector], site.horizon_m[beside]));
+    return flat_m > next_to_foot * nearest;
 }
 
 double length_across(const Vec3& way, const Direction& normal) noexcept
@@ -48,9 +69,7 @@ double site_distance(const AmbientSite& site, const Point& at, const Direction& 
         return infinity;
     const double offset = 0.5 * (dot(way, normal) + dot(way, site.normal));
     const double flat = length_across(way, site.normal);
-    if (std::fabs(offset) > most_offset * flat + rounding * longest)
-        return infinity;
-    if (flat > site.least_horizon_m && flat > site.horizon_m[horizon_sector(frame_about(site.normal), way)])
+    if (std::fabs(offset) > most_offset * flat + rounding * longest || beyond_horizon(site, way, flat))
         return infinity;
     return std::sqrt(squared);
 }
