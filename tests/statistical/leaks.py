@@ -13,10 +13,11 @@ that).
 
 import argparse
 import json
+import math
 import pathlib
+import statistics
 import sys
 import tempfile
-
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 from leak_scenes import SCENES
