@@ -219,9 +219,7 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     const Camera camera(view);
     const Tile wanted = wanted_pixels(settings), whole{0, 0, settings.width, settings.height};
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
-    AmbientBuild ambient(*parts_,
-                         ambient_effort(settings.accuracy, settings.techniques, settings.seed, settings.threads),
-                         settings.techniques);
+    AmbientBuild ambient(*parts_, effort_of(settings), settings.techniques, plain ? "" : settings.ambient_file.file);
     if (!plain) {
         Teller teller(progress, "ambient light, view " + view.name, 5);
         build(ambient, {camera, parts_->tracer, settings.width, settings.height}, settings.techniques, settings.threads,
@@ -247,6 +245,7 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
                                  wanted, result.picture, settings.threads, check);
     }
     result.work = ambient.work();
+    result.report = ambient.report();
     result.seconds = seconds_since(start);
     return result;
 }
