@@ -1,5 +1,6 @@
 #include "importers/project/project.h"
 
+#include "engine/base/duration.h"
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
 #include "engine/base/toml.h"

@@ -1,3 +1,4 @@
+#include "engine/base/duration.h"
 #include "engine/base/text.h"
 #include "engine/simulate/technique_names.h"
 #include "plugins/cli/options.h"
