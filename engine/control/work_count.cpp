@@ -62,7 +62,7 @@ WorkCount work_of(const Prediction& prediction, double items, double cpu_seconds
     work.prediction = prediction;
     work.prediction.samples = work.samples;
     work.prediction.cpu_seconds = work.cpu_seconds;
-    work.prediction.error = model.error(work.accuracy);
+    work.prediction.error = model.error_at(work.accuracy);
     return work;
 }
 
