@@ -153,7 +153,6 @@ void AmbientCache::clamp_to_neighbours(AmbientRecord& record)
 void AmbientCache::insert(std::vector<AmbientRecord>&& records)
 {
     for (AmbientRecord& record : records) {
-        clamp_to_neighbours(record);
         sites_.push_back(record.site);
         records_.push_back(std::move(record));
     }
@@ -162,7 +161,7 @@ void AmbientCache::insert(std::vector<AmbientRecord>&& records)
 
 void AmbientCache::add(std::vector<AmbientRecord> records)
 {
-    insert(std::move(records));
+    insert(std::move(records)); // clamped when they were made: a run that takes up its own records has the same bits
 }
 
 std::size_t AmbientCache::grow(const std::vector<AmbientCandidate>& candidates, const HemisphereRays& rays,
@@ -179,6 +178,8 @@ std::size_t AmbientCache::grow(const std::vector<AmbientCandidate>& candidates, 
         settings.check();
         made[k] = trace(candidates[chosen[k]], records_.size() + k, rays, size_m, settings);
     });
+    for (AmbientRecord& record : made)
+        clamp_to_neighbours(record);
     insert(std::move(made));
     return chosen.size();
 }

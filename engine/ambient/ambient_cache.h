@@ -53,7 +53,7 @@ public:
     /// One generation. @return records added
     std::size_t grow(const std::vector<AmbientCandidate>& candidates, const HemisphereRays& rays, double size_m,
                      const CacheSettings& settings);
-    /// Adds records that were made before: by an earlier run, by another process.
+    /// Adds records that were made before, by an earlier run or another process, as they are.
     void add(std::vector<AmbientRecord> records);
     /// @return false where no record answers
     bool irradiance(const Point& at, const Direction& normal, CachedAmbient& found) const noexcept;

@@ -130,6 +130,26 @@ void DeepField::place(const std::vector<SurfacePlace>& candidates, const Hemisph
     }
 }
 
+void DeepField::restore(DeepSolution&& solution)
+{
+    sites_ = std::move(solution.sites);
+    ambient_ = std::move(solution.ambient);
+    direct_ = std::move(solution.direct);
+    tested_share_ = std::move(solution.tested_share);
+    lit_W_per_m2_ = std::move(solution.lit_W_per_m2);
+    places_.clear();
+    tree_.build(sites_);
+    find_bright();
+}
+
+void DeepField::find_bright()
+{
+    std::vector<BrightDiscs::Lit> lit;
+    for (std::size_t i = 0; i < sites_.size(); ++i)
+        lit.push_back({sites_[i].position, sites_[i].normal, covered_share * sites_[i].reach_m[0], lit_W_per_m2_[i]});
+    bright_ = BrightDiscs(std::move(lit));
+}
+
 std::size_t DeepField::weights(const Point& at, const Direction& normal, Weight* found) const noexcept
 {
     Vec3 ways[most_weights];
@@ -209,22 +229,21 @@ void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const H
     const std::size_t count = sites_.size();
     direct_.resize(count);
     std::vector<double> unevenness(count);
-    std::vector<BrightDiscs::Lit> lit(count);
+    lit_W_per_m2_.resize(count);
     parallel_for(count, settings.threads, [&](std::size_t i) {
-        lit[i] = {sites_[i].position, sites_[i].normal, covered_share * sites_[i].reach_m[0], 0};
         double squares = 0;
         for (std::uint32_t k = 0; k < from[i].size(); ++k) {
             PathRandom random(mix_bits(settings.seed, direct_salt), i, k);
             const DirectIrradiance direct = rays.direct(from[i][k].place, random);
             direct_[i] += direct.lamps * from[i][k].weight;
             squares += photopic(direct.lamps) * photopic(direct.lamps) * from[i][k].weight;
-            lit[i].irradiance += photopic(direct.lamps + direct.suns) * from[i][k].weight;
+            lit_W_per_m2_[i] += photopic(direct.lamps + direct.suns) * from[i][k].weight;
             other_share[i] -= std::min(1.0, direct.lamp_share) * from[i][k].weight;
         }
         const double mean = photopic(direct_[i]);
         unevenness[i] = std::sqrt(std::max(0.0, squares - mean * mean));
     });
-    bright_ = BrightDiscs(std::move(lit));
+    find_bright();
     double mean = 0;
     for (const Spectrum& direct : direct_)
         mean += photopic(direct) / static_cast<double>(count);

@@ -22,6 +22,15 @@ struct DeepSettings {
     std::function<void()> check = [] {}; ///< called often, from all threads: throws to stop
 };
 
+/// A solved deep field, to be kept and taken up again: as long as `sites`, all of it.
+struct DeepSolution {
+    std::vector<AmbientSite> sites;
+    std::array<std::vector<Spectrum>, replicates> ambient; ///< irradiance, W/m^2
+    std::vector<Spectrum> direct;                          ///< irradiance, W/m^2
+    std::vector<double> tested_share;
+    std::vector<double> lit_W_per_m2; ///< photopic irradiance by lamps and suns
+};
+
 /// Ambient irradiance everywhere, coarsely: all bounces but the first are read from it. Sites spread over the
 /// surfaces that light reaches; the ambient irradiance of each is a sum over its rays of what they met and of the
 /// ambient irradiance there, interpolated between sites. That is a linear system, solved as a whole: no bounce is cut
@@ -38,6 +47,10 @@ public:
                const DeepSettings& settings);
     /// Traces the rays of all sites and solves. No site may be added afterwards.
     void solve_with(const HemisphereRays& rays, const DeepSettings& settings);
+
+    /// What solve_with() has found; restore() takes it up in place of place() and solve_with(), with the same bits.
+    DeepSolution solution() const { return {sites_, ambient_, direct_, tested_share_, lit_W_per_m2_}; }
+    void restore(DeepSolution&& solution);
 
     struct Weight {
         std::uint32_t site;
@@ -76,6 +89,7 @@ private:
                    const RowRays& which, FixedPoint& system) const;
     void find_direct(const std::vector<std::vector<Start>>& from, const HemisphereRays& rays,
                      const DeepSettings& settings, std::vector<double>& other_share);
+    void find_bright();
     bool covers(const Point& at, const Direction& normal) const noexcept;
     std::vector<Start> starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
                               std::uint64_t seed) const;
@@ -85,7 +99,7 @@ private:
     SiteTree tree_;
     std::array<std::vector<Spectrum>, replicates> ambient_;
     std::vector<Spectrum> direct_;
-    std::vector<double> tested_share_;
+    std::vector<double> tested_share_, lit_W_per_m2_;
     BrightDiscs bright_;
 };
 

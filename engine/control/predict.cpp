@@ -206,6 +206,7 @@ Prediction predict(const Simulation& simulation, const SensorGrid& grid, const G
         GridSettings coarse = settings;
         coarse.accuracy = accuracy;
         coarse.samples = samples;
+        coarse.ambient_file = {}; // would belong to another accuracy
         const GridResult result = simulation.illuminance(thin, coarse, told);
         return Outcome{result.samples, result.median_relative_error};
     };
@@ -227,6 +228,7 @@ Prediction predict(const Simulation& simulation, const View& view, const Picture
             PictureSettings coarse = size;
             coarse.accuracy = accuracy;
             coarse.samples = samples;
+            coarse.ambient_file = {}; // would belong to another accuracy
             const PictureResult result = simulation.render(view, coarse, told);
             return Outcome{result.samples, result.median_relative_error};
         };

@@ -40,4 +40,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
+/// Header "settings" of the picture that an interrupted run of `file` has left; empty when there is none.
+std::string interrupted_settings(const std::filesystem::path& file);
+
 } // namespace lightwell

@@ -29,13 +29,16 @@ Picture::Place place_of(const Picture& layout)
     return whole ? Picture::Place{} : layout.place;
 }
 
+std::string settings_of(const Picture& picture)
+{
+    const auto found = picture.header.find("settings");
+    return found == picture.header.end() ? std::string() : found->second;
+}
+
 bool same_layout(const Picture& a, const Picture& b)
 {
-    const auto settings = [](const Picture& p) {
-        const auto found = p.header.find("settings");
-        return found == p.header.end() ? std::string() : found->second;
-    };
-    return a.width == b.width && a.height == b.height && place_of(a) == place_of(b) && settings(a) == settings(b) &&
+    return a.width == b.width && a.height == b.height && place_of(a) == place_of(b) &&
+           settings_of(a) == settings_of(b) &&
            std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
                       [](const auto& x, const auto& y) { return x.first == y.first; });
 }
@@ -57,6 +60,19 @@ std::map<TileKey, Picture> earlier_tiles(const std::filesystem::path& partial, c
 }
 
 } // namespace
+
+std::string interrupted_settings(const std::filesystem::path& file)
+{
+    const std::filesystem::path partial = partial_name(file);
+    if (!std::filesystem::exists(partial))
+        return {};
+    try {
+        const MappedFile mapped(partial);
+        return settings_of(read_exr_tiles(mapped.bytes(), partial.string()).layout);
+    } catch (const InputError&) {
+        return {}; // as good as none
+    }
+}
 
 struct GrowingPicture::State {
     std::filesystem::path file, partial;

@@ -11,6 +11,8 @@ namespace {
 constexpr std::uint64_t walk_salt = 0x77616c6b;
 /// Diffuse scatterings along a path that looks for sites: the third bounce reaches about every corner of a room.
 constexpr int walk_scatterings = 3;
+/// A kept deep field serves another view when it answers at this share of what that view's paths meet.
+constexpr double answered_share = 0.98;
 
 int power_of_two(double x, int least, int most)
 {
@@ -23,6 +25,7 @@ int power_of_two(double x, int least, int most)
 AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std::uint64_t seed, int threads)
 {
     AmbientEffort effort;
+    effort.accuracy = accuracy;
     // At 5 %: 64 rays a site, 512 a record, records 0.1 of the harmonic mean distance apart.
     constexpr double usual = 0.05;
     effort.deep.rays = power_of_two(24 * usual / accuracy, 64, 1024);
@@ -38,12 +41,25 @@ AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std:
 }
 
 AmbientBuild::AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques,
-                           const std::function<void()>& check)
+                           const std::function<void()>& check, const std::filesystem::path& file)
     : parts_(parts), effort_(effort), cache_(deep_),
       tracer_(parts.scene, parts.rays, parts.sources, parts.virtual_sources,
-              {techniques.cache ? &cache_ : nullptr, techniques.deep_field ? &deep_ : nullptr})
+              {techniques.cache ? &cache_ : nullptr, techniques.deep_field ? &deep_ : nullptr},
+              parts.preparation.direct)
 {
     effort_.deep.check = effort_.cache.check = check;
+    if (!file.empty())
+        kept_.emplace(file, ambient_identity(parts, effort, techniques));
+}
+
+bool AmbientBuild::answers(const std::vector<SurfacePlace>& places) const
+{
+    std::size_t answered = 0;
+    for (const SurfacePlace& place : places) {
+        DeepField::Weight weights[DeepField::most_weights];
+        answered += deep_.weights(place.position, place.normal, weights) > 0 ? 1 : 0;
+    }
+    return static_cast<double>(answered) >= answered_share * static_cast<double>(places.size());
 }
 
 void AmbientBuild::build_deep(std::size_t count, const Start& start)
@@ -61,13 +77,30 @@ void AmbientBuild::build_deep(std::size_t count, const Start& start)
     std::vector<SurfacePlace> candidates;
     for (const std::vector<SurfacePlace>& path : found)
         candidates.insert(candidates.end(), path.begin(), path.end());
+    deep_kept_ = kept_ && kept_->take_deep([&](DeepSolution& deep) {
+        deep_.restore(std::move(deep));
+        return answers(candidates);
+    });
+    if (deep_kept_)
+        return;
+    deep_.restore({});
     deep_.place(candidates, tracer_, parts_.box.diagonal(), effort_.deep);
     deep_.solve_with(tracer_, effort_.deep);
+    if (kept_)
+        kept_->keep(deep_.solution());
 }
 
 std::size_t AmbientBuild::grow(const std::vector<AmbientCandidate>& candidates)
 {
-    return cache_.grow(candidates, tracer_, parts_.box.diagonal(), effort_.cache);
+    if (kept_) {
+        std::vector<AmbientRecord> others = kept_->new_records();
+        records_kept_ += others.size();
+        cache_.add(std::move(others));
+    }
+    const std::size_t made = cache_.grow(candidates, tracer_, parts_.box.diagonal(), effort_.cache);
+    if (kept_)
+        kept_->keep(std::span(cache_.records()).last(made));
+    return made;
 }
 
 } // namespace lightwell

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/simulate/kept_ambient.h"
 #include "engine/simulate/parts.h"
 
 namespace lightwell {
@@ -9,15 +10,26 @@ struct AmbientEffort {
     DeepSettings deep;
     CacheSettings cache;
     std::size_t deep_paths = 1024; ///< along which the deep field's sites are looked for
+    double accuracy = 0;           ///< that all of this follows from
 };
 AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std::uint64_t seed, int threads);
+
+/// @param settings  of a picture or a grid
+template <class Settings>
+AmbientEffort effort_of(const Settings& settings)
+{
+    const double kept = settings.ambient_file.accuracy;
+    return ambient_effort(kept > 0 ? kept : settings.accuracy, settings.techniques, settings.seed, settings.threads);
+}
 
 /// Ambient light of one picture or grid, and the tracer that uses it.
 class AmbientBuild {
 public:
     /// @param check  called often, from all threads: throws to stop
+    /// @param file  of kept light: what fits is taken from there, what is made is added; empty: none
+    /// @throws InputError when the file belongs to another scene or other settings
     AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques,
-                 const std::function<void()>& check);
+                 const std::function<void()>& check, const std::filesystem::path& file);
     AmbientBuild(const AmbientBuild&) = delete;
     AmbientBuild& operator=(const AmbientBuild&) = delete;
 
@@ -29,16 +41,27 @@ public:
 
     /// Uses what has been built so far.
     const PathTracer& tracer() const noexcept { return tracer_; }
-    WorkCounts work() const noexcept { return {deep_.size(), deep_.bright().size(), cache_.records().size()}; }
+    WorkCounts work() const noexcept
+    {
+        return {deep_.size(), deep_.bright().size(), cache_.records().size(), deep_kept_ ? deep_.size() : 0,
+                records_kept_};
+    }
     const DeepField& deep() const noexcept { return deep_; }
     const AmbientCache& cache() const noexcept { return cache_; }
+    /// Damage found in the file.
+    Report report() const { return kept_ ? kept_->report() : Report{}; }
 
 private:
+    bool answers(const std::vector<SurfacePlace>& places) const;
+
     const SimulationParts& parts_;
     AmbientEffort effort_;
     DeepField deep_;
     AmbientCache cache_;
     PathTracer tracer_;
+    std::optional<KeptAmbient> kept_;
+    std::size_t records_kept_ = 0; ///< of others, taken from the file
+    bool deep_kept_ = false;
 };
 
 } // namespace lightwell

@@ -141,15 +141,11 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     GridResult result;
     if (receivers.empty())
         return result;
-    const AmbientEffort effort =
-        ambient_effort(settings.accuracy, settings.techniques, settings.seed, settings.threads);
     Techniques techniques = settings.techniques;
     techniques.cache = techniques.cache && receivers.size() >= many_sensors;
-    AmbientBuild ambient(*parts_, effort, techniques, [&] {
-        if (progress.stop())
-            throw Cancelled{};
-    });
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
+    AmbientBuild ambient(*parts_, effort_of(settings), techniques, stop_when_asked(progress),
+                         plain ? "" : settings.ambient_file.file);
     if (!plain) {
         progress.tell("ambient light, grid " + grid.name, 0);
         build(ambient, receivers, techniques.cache, grid.spacing_m);
@@ -182,6 +178,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         result.bias = bias_of(points);
     }
     result.work = ambient.work();
+    result.report = ambient.report();
     result.seconds = seconds_since(start);
     return result;
 }

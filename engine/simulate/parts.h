@@ -17,14 +17,24 @@ struct SimulationParts {
     VirtualSources virtual_sources;
     PathTracer tracer; ///< plain
     Box box;
+    Preparation preparation;
 
-    SimulationParts(Scene&& s, const Preparation& preparation)
+    SimulationParts(Scene&& s, const Preparation& p)
         : scene(std::move(s)), rays(scene), sources(scene, rays),
-          virtual_sources(scene, sources, {preparation.virtual_depth}), tracer(scene, rays, sources, virtual_sources),
-          box(bounds(scene))
+          virtual_sources(scene, sources, {p.virtual_sources ? p.virtual_depth : 0}),
+          tracer(scene, rays, sources, virtual_sources, {}, p.direct), box(bounds(scene)), preparation(p)
     {
     }
 };
+
+/// Throws Cancelled when progress says stop.
+inline std::function<void()> stop_when_asked(const Progress& progress)
+{
+    return [&progress] {
+        if (progress.stop())
+            throw Cancelled{};
+    };
+}
 
 /// Tells how far the work has come, from one thread at a time, and stops it when asked.
 class Teller {

@@ -14,26 +14,25 @@ constexpr int sure_scatterings = 3;
 /// Even a path that loses nothing ends some day.
 constexpr double most_survival = 0.9999;
 /// At a site one shadow ray a lamp will do: a mean over several places is wanted.
-DirectSettings site_settings()
+DirectSettings at_sites(DirectSettings settings)
 {
-    DirectSettings settings;
     settings.subdivide = false;
     return settings;
 }
 
 /// Several paths share a pixel: each tests the lamps that give most, with one shadow ray, and one of the rest.
-DirectSettings eye_settings()
+DirectSettings for_eyes(const DirectSettings& wanted)
 {
-    DirectSettings settings = site_settings();
+    DirectSettings settings = at_sites(wanted);
     settings.threshold = 0.5;
     settings.sampled_remainder = true;
     return settings;
 }
 
 /// Behind a scattering one lamp is tested, chosen by what each would give here: where all are seen, that is exact.
-DirectSettings quick_settings()
+DirectSettings behind_scattering(const DirectSettings& wanted)
 {
-    DirectSettings settings = site_settings();
+    DirectSettings settings = at_sites(wanted);
     settings.threshold = infinity;
     settings.sampled_remainder = true;
     return settings;
@@ -103,11 +102,12 @@ struct PathTracer::AmbientHere {
 };
 
 PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
-                       const VirtualSources& virtual_sources, const AmbientLight& ambient)
+                       const VirtualSources& virtual_sources, const AmbientLight& ambient,
+                       const DirectSettings& settings)
     : scene_(scene), rays_(rays), sources_(sources), virtual_sources_(virtual_sources), ambient_(ambient),
-      direct_(sources, rays), mirrored_(virtual_sources, sources, rays), eye_direct_(sources, rays, eye_settings()),
-      site_direct_(sources, rays, site_settings()), quick_direct_(sources, rays, quick_settings()),
-      white_(Plastic{Spectrum::grey(1), 0, 0})
+      direct_(sources, rays, settings), mirrored_(virtual_sources, sources, rays),
+      eye_direct_(sources, rays, for_eyes(settings)), site_direct_(sources, rays, at_sites(settings)),
+      quick_direct_(sources, rays, behind_scattering(settings)), white_(Plastic{Spectrum::grey(1), 0, 0})
 {
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;

@@ -30,7 +30,8 @@ struct Sight {
 class PathTracer : public HemisphereRays {
 public:
     PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
-               const VirtualSources& virtual_sources, const AmbientLight& ambient = {});
+               const VirtualSources& virtual_sources, const AmbientLight& ambient = {},
+               const DirectSettings& settings = {});
 
     /// @param replicate  of the ambient light
     PathSample sample(const Ray& ray, int replicate, PathRandom& random) const;

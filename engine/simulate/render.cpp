@@ -224,12 +224,8 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     const Camera camera(view);
     const Tile wanted = wanted_pixels(settings), whole{0, 0, settings.width, settings.height};
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
-    AmbientBuild ambient(*parts_,
-                         ambient_effort(settings.accuracy, settings.techniques, settings.seed, settings.threads),
-                         settings.techniques, [&] {
-                             if (progress.stop())
-                                 throw Cancelled{};
-                         });
+    AmbientBuild ambient(*parts_, effort_of(settings), settings.techniques, stop_when_asked(progress),
+                         plain ? "" : settings.ambient_file.file);
     if (!plain) {
         Teller teller(progress, "ambient light, view " + view.name, 5);
         build(ambient, {camera, parts_->tracer, settings.width, settings.height}, settings.techniques, settings.threads,
@@ -255,6 +251,7 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
                                  wanted, result.picture, settings.threads, check);
     }
     result.work = ambient.work();
+    result.report = ambient.report();
     result.seconds = seconds_since(start);
     return result;
 }

@@ -89,6 +89,11 @@ const Scene& Simulation::scene() const noexcept
     return parts_->scene;
 }
 
+const Preparation& Simulation::preparation() const noexcept
+{
+    return parts_->preparation;
+}
+
 std::size_t Simulation::query_bytes() const noexcept
 {
     return parts_->rays.bytes();

@@ -2,10 +2,13 @@
 
 #include "engine/base/progress.h"
 #include "engine/base/quantities.h"
+#include "engine/base/report.h"
+#include "engine/direct/settings.h"
 #include "engine/pictures/picture.h"
 #include "engine/scene/scene.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -29,6 +32,13 @@ struct Techniques {
     bool hessian = true;        ///< decides the distance between records; else the harmonic mean distance alone
 };
 
+/// Ambient light kept on disk, for the next view, the next run and other processes at the same time.
+struct AmbientFile {
+    std::filesystem::path file; ///< empty: none. Not for `unbiased`, which keeps nothing
+    /// Accuracy that ambient light is found for; 0: that of the result. Results share a file only at one accuracy.
+    double accuracy = 0;
+};
+
 struct PictureSettings {
     int width = 960, height = 540;
     int samples = 0;        ///< paths per pixel; 0: chosen from `accuracy` by a pilot run over a few hundred pixels
@@ -37,6 +47,7 @@ struct PictureSettings {
     int threads = 0;       ///< 0: all processors; the result does not depend on it
     bool unbiased = false; ///< plain path tracing: no cache, no interpolation, only noise
     Techniques techniques = {};
+    AmbientFile ambient_file = {};
     /// The part that is wanted; width 0: all. Its pixels have the same bits as those of the whole picture.
     Tile region = {};
 };
@@ -57,6 +68,7 @@ struct BiasEstimate {
 /// What was built for a result: 0 for stages that the scene or the settings did without.
 struct WorkCounts {
     std::size_t deep_sites = 0, bright_discs = 0, ambient_records = 0;
+    std::size_t sites_kept = 0, records_kept = 0; ///< of these, taken from the file of kept light
 };
 
 /// Where finished tiles go, and where those of an interrupted run come from. May be called from several threads.
@@ -73,6 +85,7 @@ struct PictureResult {
     WorkCounts work;
     int samples = 0;
     double seconds = 0;
+    Report report; ///< damage found in the file of kept light
 };
 
 /// Channels of a picture and of the tiles that a TileStore gets.
@@ -85,6 +98,7 @@ struct GridSettings {
     int threads = 0;
     bool unbiased = false;
     Techniques techniques = {};
+    AmbientFile ambient_file = {};
 };
 
 /// Illuminance on the front side of each sensor, with one standard error.
@@ -96,11 +110,14 @@ struct GridResult {
     double median_relative_error = 0;
     int samples = 0;
     double seconds = 0;
+    Report report;
 };
 
 /// What is made ready with a scene, for all its pictures and grids.
 struct Preparation {
-    int virtual_depth = 2; ///< mirrors one after the other that virtual sources stand behind; 0: none
+    int virtual_depth = 2;       ///< mirrors one after the other that virtual sources stand behind; 0: none
+    bool virtual_sources = true; ///< false: as a depth of 0
+    DirectSettings direct = {};
 };
 
 struct SimulationParts;
@@ -117,6 +134,7 @@ public:
     Simulation& operator=(Simulation&&) noexcept;
 
     const Scene& scene() const noexcept;
+    const Preparation& preparation() const noexcept;
     /// Bytes held beside the scene itself by the ray queries.
     std::size_t query_bytes() const noexcept;
     /// @throws InputError for an unusable view, Cancelled when progress says stop

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t most_spherical_triangles = 8;
 /// Flat meshes of more triangles than this have no closed form: it would take longer than shadow rays.
 constexpr std::size_t most_summed_triangles = 16;
-/// Distance over radius from which on a source counts as a point: its irradiance is then right to 1e-8, where the sum over a
-/// polygon's edges begins to lose as many digits.
+/// Distance over radius from which on a source counts as a point: its irradiance is then right to 1e-8, where the sum
+/// over a polygon's edges begins to lose as many digits.
 constexpr double far_away = 1e4;
 
 struct PointOnSource {

@@ -1,5 +1,6 @@
 #include "importers/project/project.h"
 
+#include "engine/base/duration.h"
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
 #include "engine/base/toml.h"
@@ -227,20 +228,44 @@ GridRequest read_grid(const TomlTable& table, std::size_t number, const std::fil
     return grid;
 }
 
+std::optional<double> read_time(const TomlTable& table)
+{
+    const auto text = table.text("time");
+    if (!text)
+        return std::nullopt;
+    const auto seconds = parse_duration(*text);
+    if (!seconds)
+        throw InputError{table.place_of("time"), "time is \"" + *text + "\"", "expected \"60s\", \"5min\" or \"2h\""};
+    return seconds;
+}
+
+std::string read_quality(const TomlTable& table)
+{
+    const std::string quality = table.text("quality").value_or("");
+    if (!quality.empty() && quality != "draft" && quality != "normal" && quality != "fine")
+        throw InputError{table.place_of("quality"), "quality is \"" + quality + "\"",
+                         "expected \"draft\", \"normal\" or \"fine\""};
+    return quality;
+}
+
 ProjectWish read_wish(const TomlTable& table)
 {
-    for (const char* word : {"time", "quality"})
-        if (table.has(word))
-            throw InputError{table.place_of(word), std::string(word) + " is not available yet",
-                             "wish for accuracy = 0.05 (5 %) or for a number of samples"};
-    table.expect_words({"accuracy", "samples", "seed"});
+    table.expect_words({"accuracy", "samples", "time", "quality", "seed"});
     ProjectWish wish;
     if (const auto accuracy = table.number("accuracy"))
         wish.accuracy = bounded(table, "accuracy", *accuracy, 1e-5, 1);
     wish.samples = whole(table, "samples", 1, 1 << 24);
-    if (wish.accuracy && wish.samples)
-        throw InputError{table.place_of("samples"), "accuracy and samples contradict each other",
-                         "keep one: samples are chosen from the accuracy"};
+    wish.time_s = read_time(table);
+    wish.quality = read_quality(table);
+    const char* first = nullptr;
+    for (const char* word : {"accuracy", "samples", "time", "quality"}) {
+        if (!table.has(word))
+            continue;
+        if (first != nullptr)
+            throw InputError{table.place_of(word), std::string(first) + " and " + word + " contradict each other",
+                             "keep one: each says how much work is wanted"};
+        first = word;
+    }
     wish.seed = whole(table, "seed", 0, 2147483647);
     return wish;
 }

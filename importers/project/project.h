@@ -23,10 +23,12 @@ struct ProjectView {
     int width = 960, height = 540; ///< pixels
 };
 
-/// What accuracy is wanted; at most one of the two. Wishes by time or quality are not available yet.
+/// How much work is wanted; at most one of accuracy, samples, time and quality.
 struct ProjectWish {
     std::optional<double> accuracy; ///< (0, 1], standard error over value
     std::optional<int> samples;     ///< per pixel or sensor
+    std::optional<double> time_s;   ///< for all results together
+    std::string quality;            ///< "draft", "normal", "fine"; empty: not given
     std::optional<long long> seed;
 };
 
@@ -53,7 +55,7 @@ struct Project {
 /// `[sky] type = "clear" | "intermediate" | "overcast" | "uniform" | "none", sun, turbidity, ground_reflectance`;
 /// `[[view]] name, text or position with direction or target, up, kind, horizontal, vertical, shift, lift, fore, aft,
 /// lens, focus; size`;
-/// `[[grid]] on, spacing, name`; `[wish] accuracy or samples, seed`; `[output] folder, png, hdr`.
+/// `[[grid]] on, spacing, name`; `[wish] accuracy, samples, time or quality; seed`; `[output] folder, png, hdr`.
 /// @throws InputError with file and line: TOML errors, unknown words, values out of range, what is missing
 Project read_project(const std::filesystem::path& file);
 

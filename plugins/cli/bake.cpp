@@ -39,11 +39,7 @@ BakeJob job_of(const BakeOptions& options, const LitScene& lit)
                 : options.sides == "back" ? BakeSides::back
                                           : BakeSides::both;
     job.spacing_m = options.spacing_m;
-    job.settings.samples = options.effort.samples;
-    job.settings.accuracy = options.effort.accuracy;
-    job.settings.seed = options.effort.seed;
-    job.settings.threads = options.effort.threads;
-    job.settings.unbiased = options.effort.unbiased;
+    job.settings = grid_settings(options.effort);
     job.folder = options.folder;
     job.provenance = lit.provenance;
     return job;
@@ -59,7 +55,7 @@ Status bake(const BakeOptions& options, std::ostream& out, std::ostream& err)
     std::filesystem::create_directories(job.folder, failed);
     if (failed)
         throw InputError(options.folder, "the folder cannot be made: " + failed.message(), "choose another one");
-    const Simulation simulation(std::move(lit.scene));
+    const Simulation simulation(std::move(lit.scene), options.effort.preparation);
     catch_interrupts();
     const SensorGrid grid = sensors_of(job);
     GridResult result;
@@ -102,8 +98,12 @@ void add_bake(CLI::App& app, Status& status)
     constexpr double map_accuracy = 0.05;
     add_effort_words(command, options->effort, map_accuracy);
     add_unbiased_flag(command, options->effort);
+    add_ambient_file(command, options->effort);
     command.footer(examples);
-    command.callback([options, &status] { status = bake(*options, std::cout, std::cerr); });
+    command.callback([options, &status] {
+        check_effort(options->effort);
+        status = bake(*options, std::cout, std::cerr);
+    });
 }
 
 } // namespace lightwell

@@ -32,15 +32,15 @@ Status illuminance(const IlluminanceOptions& options, std::ostream& out, std::os
     err << lit.report;
     MapJob job;
     job.grid = choose_grid(options.grid, lit.scene);
-    job.settings = {options.effort.samples, options.effort.accuracy, options.effort.seed, options.effort.threads,
-                    options.effort.unbiased};
+    job.settings = grid_settings(options.effort);
     job.files.assign(options.outputs.begin(), options.outputs.end());
     job.provenance = lit.provenance;
+    job.time_s = options.effort.time_s;
     job.report = lit.report;
     check_map_files(job);
     if (lit.provenance.contains("sky"))
         err << lit.provenance["sky"] << '\n';
-    const Simulation simulation(std::move(lit.scene));
+    const Simulation simulation(std::move(lit.scene), options.effort.preparation);
     catch_interrupts();
     if (options.effort.plan) {
         const Forecast expected = forecast(simulation, job.grid, job.settings);
@@ -70,8 +70,13 @@ void add_illuminance(CLI::App& app, Status& status)
     add_effort_words(command, options->effort, map_accuracy);
     add_unbiased_flag(command, options->effort);
     add_plan_flag(command, options->effort);
+    add_time_words(command, options->effort, &options->scene.sky);
+    add_ambient_file(command, options->effort);
     command.footer(examples);
-    command.callback([options, &status] { status = illuminance(*options, std::cout, std::cerr); });
+    command.callback([options, &status] {
+        check_effort(options->effort);
+        status = illuminance(*options, std::cout, std::cerr);
+    });
 }
 
 } // namespace lightwell

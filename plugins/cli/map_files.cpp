@@ -3,9 +3,11 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/base/text.h"
+#include "engine/control/work_count.h"
 #include "engine/pictures/exr.h"
 #include "engine/pictures/false_colour.h"
 #include "engine/pictures/png.h"
+#include "plugins/cli/options.h"
 #include "plugins/cli/provenance.h"
 #include "plugins/cli/terminal.h"
 
@@ -110,9 +112,31 @@ void write_files(const MapJob& job, const GridResult& result, double cpu_seconds
     record.work = result.work;
     record.wanted_accuracy = job.settings.accuracy;
     record.median_relative_error = result.median_relative_error;
+    record.bias = result.bias;
+    record.wanted_time_s = job.time_s;
+    record.replay = replay_words(job.settings.accuracy, result.samples, job.settings.seed);
     record.more = map_header(job, result);
     record.report = job.report;
+    record.report.add(result.report);
     write_run_record(job.files.front(), record);
+}
+
+/// "bias +0.1 +- 0.2 %, ": apart from the statistical interval; nothing where there is none or it was not looked for.
+std::string bias_text(const BiasEstimate& bias)
+{
+    char text[60] = "";
+    if (bias.points > 0)
+        std::snprintf(text, sizeof text, "bias %+.2g +- %.2g %%, ", bias.mean * 100, bias.standard_error * 100);
+    return text;
+}
+
+void choose_work(const Simulation& simulation, MapJob& job, const Progress& progress)
+{
+    const WorkCount work =
+        work_within(job.time_s * processors(job.settings.threads), simulation, job.grid, job.settings, progress);
+    job.settings.accuracy = work.accuracy;
+    job.settings.samples = work.samples;
+    job.predicted = work.prediction;
 }
 
 } // namespace
@@ -148,18 +172,23 @@ void check_map_files(const MapJob& job)
     }
 }
 
-Status make_map(const Simulation& simulation, const MapJob& job, std::ostream& out, std::ostream& err)
+Status make_map(const Simulation& simulation, const MapJob& asked, std::ostream& out, std::ostream& err)
 {
-    check_map_files(job);
+    check_map_files(asked);
+    MapJob job = asked;
     try {
         ProgressLine line(job.files.front().filename().string());
         const double start = process_cpu_seconds();
+        if (job.time_s > 0)
+            choose_work(simulation, job, line.progress());
         const GridResult result = simulation.illuminance(job.grid, job.settings, line.progress());
         write_files(job, result, process_cpu_seconds() - start);
+        err << result.report;
         std::string names;
         for (const std::filesystem::path& file : job.files)
             names += (names.empty() ? "" : ", ") + file.string();
-        out << names << ": " << caption_of(job, result) << ", " << duration_text(result.seconds) << '\n';
+        out << names << ": " << caption_of(job, result) << ", " << bias_text(result.bias)
+            << duration_text(result.seconds) << '\n';
     } catch (const Cancelled&) {
         err << "lightwell: interrupted; " << job.files.front().string()
             << " was not written; maps start anew when the command is run again\n";

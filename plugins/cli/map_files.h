@@ -20,6 +20,7 @@ struct MapJob {
     std::map<std::string, std::string> provenance;
     Report report;
     std::optional<Prediction> predicted = {};
+    double time_s = 0; ///< wanted, of a machine whose processors are free; 0: the settings say how much work
 };
 
 /// Mean, extremes and uniformity (minimum / mean) of a map, lx.

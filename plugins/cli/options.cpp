@@ -54,37 +54,6 @@ void add_scene_words(CLI::App& command, SceneWords& words)
     add_sky_words(command, words.sky);
 }
 
-void add_effort_words(CLI::App& command, EffortWords& words, double accuracy)
-{
-    words.accuracy = accuracy;
-    command
-        .add_option_function<std::string>(
-            "--accuracy", [&words](const std::string& text) { words.accuracy = parse_accuracy(text); },
-            "wanted standard error, relative, as median over the result: 5% or 0.05 (default " + shortest(accuracy) +
-                ")")
-        ->type_name("PERCENT");
-    command.add_option("--samples", words.samples, "paths per pixel or sensor, instead of an accuracy")
-        ->check(CLI::Range(1, 1 << 24))
-        ->type_name("N");
-    command.add_option("--seed", words.seed, "of the random numbers; the same seed gives the same bits (default 1)")
-        ->type_name("N");
-    command.add_option("--threads", words.threads, "0: all processors; the result does not depend on it")
-        ->check(CLI::Range(0, 4096))
-        ->type_name("N");
-}
-
-void add_unbiased_flag(CLI::App& command, EffortWords& words)
-{
-    command.add_flag("--unbiased", words.unbiased,
-                     "plain path tracing: nothing is stored and interpolated, only noise");
-}
-
-void add_plan_flag(CLI::App& command, EffortWords& words)
-{
-    command.add_flag("--plan", words.plan,
-                     "first predicts cost and error; they stand beside what was reached in NAME.run.json");
-}
-
 double parse_accuracy(const std::string& text)
 {
     const bool percent = !text.empty() && text.back() == '%';

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/simulate/simulate.h"
 #include "importers/importer.h"
 
 #include <functional>
@@ -28,7 +29,7 @@ void add_sky_words(CLI::App& command, SkyWords& words);
 /// The scene itself, `--map`, and all of the above.
 void add_scene_words(CLI::App& command, SceneWords& words);
 
-/// How much work: `--accuracy`, `--samples`, `--seed`, `--threads`.
+/// How much work: `--accuracy`, `--quality`, `--samples`, `--seed`, `--threads`, `--without`.
 struct EffortWords {
     double accuracy = 0;
     int samples = 0;
@@ -36,7 +37,23 @@ struct EffortWords {
     int threads = 0;
     bool unbiased = false;
     bool plan = false;
+    double time_s = 0;        ///< wanted; 0: an accuracy is
+    std::string ambient_file; ///< empty: none
+    Techniques techniques = {};
+    Preparation preparation = {};
+    bool accuracy_given = false; ///< by `--accuracy` or `--quality`
+    std::string quality;         ///< empty: not given
 };
+PictureSettings picture_settings(const EffortWords& words, int width, int height);
+GridSettings grid_settings(const EffortWords& words);
+/// `--within`, and `--time`, for what makes pictures and maps.
+/// @param sky  where `--time` is the moment of the sky as well: told apart by their form; may be null
+void add_time_words(CLI::App& command, EffortWords& words, SkyWords* sky);
+/// `--ambient-file`.
+void add_ambient_file(CLI::App& command, EffortWords& words);
+/// To be called when all words are read.
+/// @throws CLI::ValidationError for wishes that contradict each other
+void check_effort(const EffortWords& words);
 /// `--unbiased`, for pictures.
 void add_unbiased_flag(CLI::App& command, EffortWords& words);
 /// `--plan`: predict cost and error before the run.
@@ -44,6 +61,13 @@ void add_plan_flag(CLI::App& command, EffortWords& words);
 /// @param accuracy  the default, relative
 void add_effort_words(CLI::App& command, EffortWords& words, double accuracy);
 
+/// The words that repeat a result to the bit.
+std::string replay_words(double accuracy, int samples, std::uint64_t seed);
+/// How many processors a number of threads stands for; 0: all.
+int processors(int threads);
+/// What a quality means where this accuracy is usual.
+/// @throws CLI::ValidationError for a name that is none
+double accuracy_of_quality(const std::string& name, double usual);
 /// "5%" or "0.05".
 /// @throws CLI::ValidationError unless it lies between 0 and 1
 double parse_accuracy(const std::string& text);

@@ -2,10 +2,13 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
+#include "engine/control/work_count.h"
 #include "engine/pictures/exr.h"
 #include "engine/pictures/png.h"
 #include "engine/pictures/rgbe.h"
 #include "engine/scene/scene_hash.h"
+#include "engine/simulate/technique_names.h"
+#include "plugins/cli/options.h"
 #include "plugins/cli/provenance.h"
 #include "plugins/cli/terminal.h"
 
@@ -35,15 +38,53 @@ std::string region_text(const Tile& region)
            std::to_string(region.x + region.width) + "," + std::to_string(region.y + region.height);
 }
 
+std::string effort_text(const PictureSettings& s)
+{
+    return (s.samples > 0 ? ", samples " + std::to_string(s.samples) : "") + ", accuracy " + shortest(s.accuracy);
+}
+
 /// Everything that determines the pixels: a partial file goes on only when all of it agrees.
 std::string settings_text(const Simulation& simulation, const PictureJob& job)
 {
     const PictureSettings& s = job.settings;
-    const std::string effort =
-        s.samples > 0 ? "samples " + std::to_string(s.samples) : "accuracy " + shortest(s.accuracy);
-    return "size " + std::to_string(s.width) + "x" + std::to_string(s.height) + region_text(s.region) + ", " + effort +
+    const std::string off = switched_off(s.techniques, simulation.preparation());
+    const std::string ways = std::string(s.unbiased ? ", unbiased" : "") + (off.empty() ? "" : ", without " + off) +
+                             (s.ambient_file.file.empty() ? "" : ", kept ambient light");
+    return "size " + std::to_string(s.width) + "x" + std::to_string(s.height) + region_text(s.region) + effort_text(s) +
            ", seed " + std::to_string(s.seed) + ", scene " + hexadecimal(scene_hash(simulation.scene())) + ", view " +
-           to_text(job.view) + (s.unbiased ? ", unbiased, " : ", ") + program_version();
+           to_text(job.view) + ways + ", " + program_version();
+}
+
+/// The number behind a word of a settings text.
+std::optional<double> number_after(const std::string& text, const std::string& word)
+{
+    const std::size_t at = text.find(", " + word + " ");
+    if (at == std::string::npos)
+        return std::nullopt;
+    const std::size_t begin = at + word.size() + 3;
+    return parse_double(std::string_view(text).substr(begin, text.find(',', begin) - begin));
+}
+
+/// Work for the time that is wanted: what an interrupted run of the same picture chose, so that its tiles serve, or
+/// what pilot runs say.
+PictureJob with_work(const Simulation& simulation, const PictureJob& asked, const Progress& progress)
+{
+    PictureJob job = asked;
+    const std::string earlier = interrupted_settings(job.file);
+    const auto samples = number_after(earlier, "samples"), accuracy = number_after(earlier, "accuracy");
+    if (samples && accuracy) {
+        job.settings.samples = static_cast<int>(*samples);
+        job.settings.accuracy = *accuracy;
+        if (settings_text(simulation, job) == earlier)
+            return job;
+    }
+    job.settings.samples = 0;
+    const WorkCount work =
+        work_within(job.time_s * processors(job.settings.threads), simulation, job.view, job.settings, progress);
+    job.settings.accuracy = work.accuracy;
+    job.settings.samples = work.samples;
+    job.predicted = work.prediction;
+    return job;
 }
 
 std::map<std::string, std::string> picture_header(const Simulation& simulation, const PictureJob& job)
@@ -94,8 +135,12 @@ void write_companions(const PictureResult& result, const PictureJob& job, double
     record.work = result.work;
     record.wanted_accuracy = job.settings.accuracy;
     record.median_relative_error = result.median_relative_error;
+    record.bias = result.bias;
+    record.wanted_time_s = job.time_s;
+    record.replay = replay_words(job.settings.accuracy, result.samples, job.settings.seed);
     record.more = result.picture.header;
     record.report = job.report;
+    record.report.add(result.report);
     write_run_record(job.file, record);
 }
 
@@ -132,20 +177,21 @@ void fit_to_view(const View& view, PictureSettings& settings)
     settings.height = static_cast<int>(std::fmax(1, height));
 }
 
-Status make_picture(const Simulation& simulation, const PictureJob& job, std::ostream& out, std::ostream& err)
+Status make_picture(const Simulation& simulation, const PictureJob& asked, std::ostream& out, std::ostream& err)
 {
+    ProgressLine line(asked.file.filename().string());
+    const double start = process_cpu_seconds();
+    const PictureJob job = asked.time_s > 0 ? with_work(simulation, asked, line.progress()) : asked;
     const Tile wanted = wanted_pixels(job.settings);
     Picture layout{wanted.width, wanted.height, {}, picture_header(simulation, job)};
     if (job.settings.region.width > 0)
         layout.place = {wanted.x, wanted.y, job.settings.width, job.settings.height};
     for (const std::string& name : tile_channels())
         layout.channels[name];
-    ProgressLine line(job.file.filename().string());
     GrowingPicture growing(job.file, layout, tile_size);
     if (growing.resumed_tiles() > 0)
         err << job.file.string() << ": going on after " << growing.resumed_tiles() << " finished tiles\n";
     try {
-        const double start = process_cpu_seconds();
         PictureResult result = render_tiles(simulation, job, growing, line);
         result.picture.header.insert(layout.header.begin(), layout.header.end());
         result.picture.header["samples"] = std::to_string(result.samples);
@@ -155,6 +201,7 @@ Status make_picture(const Simulation& simulation, const PictureJob& job, std::os
         }
         result.picture.header["median_relative_error"] = shortest(result.median_relative_error);
         growing.finish(result.picture);
+        err << result.report;
         write_companions(result, job, process_cpu_seconds() - start);
         out << picture_line(result, job) << '\n';
     } catch (const Cancelled&) {

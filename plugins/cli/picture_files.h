@@ -20,6 +20,7 @@ struct PictureJob {
     std::map<std::string, std::string> provenance; ///< of the scene
     Report report;                                 ///< of the scene, for the run record
     std::optional<Prediction> predicted = {};
+    double time_s = 0; ///< wanted, of a machine whose processors are free; 0: the settings say how much work
 };
 
 /// Largest size within width x height whose pixels are square in the view.

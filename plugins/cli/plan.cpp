@@ -33,11 +33,9 @@ Forecast forecast_wish(const PlanOptions& options, const Simulation& simulation)
 {
     const EffortWords& effort = options.effort;
     if (!options.grid.empty())
-        return forecast(simulation, choose_grid(options.grid, simulation.scene()),
-                        {effort.samples, effort.accuracy, effort.seed, effort.threads, effort.unbiased, {}});
+        return forecast(simulation, choose_grid(options.grid, simulation.scene()), grid_settings(effort));
     const View view = choose_view(options.view, simulation.scene());
-    PictureSettings settings{options.size.first, options.size.second, effort.samples, effort.accuracy,
-                             effort.seed,        effort.threads,      effort.unbiased};
+    PictureSettings settings = picture_settings(effort, options.size.first, options.size.second);
     fit_to_view(view, settings);
     return forecast(simulation, view, settings);
 }
@@ -65,6 +63,8 @@ Status plan(const PlanOptions& options, std::ostream& out, std::ostream& err)
     validate(lit.scene);
     PlanWish wish;
     wish.accuracy = options.effort.accuracy;
+    const Preparation& preparation = options.effort.preparation;
+    wish.virtual_depth = preparation.virtual_sources ? preparation.virtual_depth : 0;
     const std::vector<Lookout> places = lookouts(options, lit.scene);
     std::optional<Surroundings> surroundings;
     if (!places.empty())
@@ -74,7 +74,7 @@ Status plan(const PlanOptions& options, std::ostream& out, std::ostream& err)
     std::optional<TimeOffer> offer;
     if (!places.empty()) {
         catch_interrupts();
-        expected = forecast_wish(options, Simulation(std::move(lit.scene)));
+        expected = forecast_wish(options, Simulation(std::move(lit.scene), options.effort.preparation));
         if (options.time_s > 0)
             offer = {options.time_s, accuracy_within(expected->prediction.model, expected->items, options.time_s)};
     }

@@ -87,9 +87,19 @@ void write_run_record(const std::filesystem::path& result, const RunRecord& reco
     json["samples"] = record.samples;
     json["built"] = {{"deep_sites", record.work.deep_sites},
                      {"bright_discs", record.work.bright_discs},
-                     {"ambient_records", record.work.ambient_records}};
+                     {"ambient_records", record.work.ambient_records},
+                     {"sites_from_file", record.work.sites_kept},
+                     {"records_from_file", record.work.records_kept}};
     json["wanted_accuracy"] = record.wanted_accuracy;
+    if (record.wanted_time_s > 0)
+        json["wanted_time_s"] = record.wanted_time_s;
+    json["replay"] = record.replay;
     json["median_relative_error"] = record.median_relative_error;
+    if (record.bias.points > 0)
+        json["bias"] = {{"mean", record.bias.mean},
+                        {"standard_error", record.bias.standard_error},
+                        {"spread", record.bias.spread},
+                        {"points", record.bias.points}};
     if (record.predicted)
         json["predicted"] = {{"cpu_seconds", record.predicted->cpu_seconds},
                              {"median_relative_error", record.predicted->error},

@@ -26,6 +26,9 @@ struct RunRecord {
     WorkCounts work;
     double wanted_accuracy = 0;
     double median_relative_error = 0;
+    BiasEstimate bias;                       ///< no points: not looked for
+    double wanted_time_s = 0;                ///< 0: an accuracy was wanted
+    std::string replay;                      ///< words of the command line that repeat the result to the bit
     std::map<std::string, std::string> more; ///< settings of the result, as in its header
     std::optional<Prediction> predicted;
     Report report;

@@ -44,20 +44,20 @@ Status render(const RenderOptions& options, std::ostream& out, std::ostream& err
     err << lit.report;
     PictureJob job;
     job.view = choose_view(options.view, lit.scene);
-    job.settings = {options.size.first,  options.size.second,    options.effort.samples, options.effort.accuracy,
-                    options.effort.seed, options.effort.threads, options.effort.unbiased};
+    job.settings = picture_settings(options.effort, options.size.first, options.size.second);
     fit_to_view(job.view, job.settings);
     const RegionWords& region = options.region;
     job.settings.region = {region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0};
     wanted_pixels(job.settings); // refuses one that is not in the picture before anything is made
     job.file = options.output;
+    job.time_s = options.effort.time_s;
     job.png = options.png;
     job.hdr = options.hdr;
     job.provenance = lit.provenance;
     job.report = lit.report;
     if (lit.provenance.contains("sky"))
         err << lit.provenance["sky"] << '\n';
-    const Simulation simulation(std::move(lit.scene));
+    const Simulation simulation(std::move(lit.scene), options.effort.preparation);
     catch_interrupts();
     if (options.effort.plan) {
         const Forecast expected = forecast(simulation, job.view, job.settings);
@@ -95,8 +95,13 @@ void add_render(CLI::App& app, Status& status)
     add_effort_words(command, options->effort, picture_accuracy);
     add_unbiased_flag(command, options->effort);
     add_plan_flag(command, options->effort);
+    add_time_words(command, options->effort, &options->scene.sky);
+    add_ambient_file(command, options->effort);
     command.footer(examples);
-    command.callback([options, &status] { status = render(*options, std::cout, std::cerr); });
+    command.callback([options, &status] {
+        check_effort(options->effort);
+        status = render(*options, std::cout, std::cerr);
+    });
 }
 
 } // namespace lightwell

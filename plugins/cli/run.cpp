@@ -19,7 +19,7 @@ struct RunOptions {
     std::string project, folder;
     std::vector<std::string> only;
     EffortWords effort;
-    bool accuracy_given = false, seed_given = false;
+    bool seed_given = false;
 };
 
 constexpr double picture_accuracy = 0.05, map_accuracy = 0.02; // as of `render` and `illuminance`
@@ -28,6 +28,7 @@ constexpr const char* examples = R"(Examples:
   lightwell run project.toml
   lightwell run project.toml --accuracy 20% --output out/draft
   lightwell run project.toml --only desk --only hall
+  lightwell run project.toml --ambient-file out/house.amb      views share their ambient light
 A project file:
   [inputs]
   files = ["house.dxf", "furniture.obj"]   # beside the project file; .rad files too
@@ -47,7 +48,7 @@ A project file:
   on = "layer:A-FLOR@0.75"
   spacing = 0.5
   [wish]
-  accuracy = 0.05
+  accuracy = 0.05                          # or quality = "draft", "normal", "fine", or time = "60s"
   [output]
   folder = "out"                           # beside the project file
 Each view becomes NAME.exr (and NAME.png), each grid NAME.csv, NAME.png and NAME.exr; a list of points only NAME.csv.)";
@@ -64,13 +65,21 @@ SceneInputs inputs_of(const Project& project)
 }
 
 /// What the project wishes, unless the command line says otherwise.
+/// @param usual_accuracy  of this kind of result
 EffortWords effort_of(const Project& project, const RunOptions& options, double usual_accuracy)
 {
     EffortWords effort = options.effort;
-    if (!options.accuracy_given)
-        effort.accuracy = project.wish.accuracy.value_or(usual_accuracy);
-    if (effort.samples == 0 && !options.accuracy_given)
-        effort.samples = project.wish.samples.value_or(0);
+    const ProjectWish& wish = project.wish;
+    if (!effort.quality.empty())
+        effort.accuracy = accuracy_of_quality(effort.quality, usual_accuracy);
+    else if (!effort.accuracy_given)
+        effort.accuracy = wish.accuracy.value_or(
+            wish.quality.empty() ? usual_accuracy : accuracy_of_quality(wish.quality, usual_accuracy));
+    const bool wished_here = effort.accuracy_given || effort.time_s > 0 || effort.samples > 0;
+    if (!wished_here) {
+        effort.samples = wish.samples.value_or(0);
+        effort.time_s = wish.time_s.value_or(0);
+    }
     if (!options.seed_given && project.wish.seed)
         effort.seed = static_cast<std::uint64_t>(*project.wish.seed);
     return effort;
@@ -81,6 +90,25 @@ struct Jobs {
     std::vector<MapJob> maps;
 };
 
+/// What all results share: the time, and the accuracy of kept ambient light, which is that of the finest.
+void share(Jobs& jobs)
+{
+    const auto count = static_cast<double>(jobs.pictures.size() + jobs.maps.size());
+    double finest = 1;
+    const auto each = [&](const auto& visit) {
+        std::for_each(jobs.pictures.begin(), jobs.pictures.end(), visit);
+        std::for_each(jobs.maps.begin(), jobs.maps.end(), visit);
+    };
+    each([&](auto& job) {
+        job.time_s /= count;
+        finest = std::min(finest, job.settings.accuracy);
+    });
+    each([&](auto& job) {
+        if (!job.settings.ambient_file.file.empty())
+            job.settings.ambient_file.accuracy = finest;
+    });
+}
+
 /// All views and grids of the project, or of its scene when the project has none.
 Jobs jobs_of(const Project& project, const RunOptions& options, const LitScene& lit)
 {
@@ -90,25 +118,22 @@ Jobs jobs_of(const Project& project, const RunOptions& options, const LitScene& 
     };
     const auto add_picture = [&](Jobs& jobs, const ProjectView& view) {
         const EffortWords effort = effort_of(project, options, picture_accuracy);
-        PictureJob job{
-            view.view,
-            {view.width, view.height, effort.samples, effort.accuracy, effort.seed, effort.threads, effort.unbiased},
-            folder / (view.view.name + ".exr"),
-            project.output.png,
-            project.output.hdr,
-            lit.provenance,
-            lit.report};
+        PictureJob job{view.view,
+                       picture_settings(effort, view.width, view.height),
+                       folder / (view.view.name + ".exr"),
+                       project.output.png,
+                       project.output.hdr,
+                       lit.provenance,
+                       lit.report};
+        job.time_s = effort.time_s;
         fit_to_view(job.view, job.settings);
         if (wanted(view.view.name))
             jobs.pictures.push_back(std::move(job));
     };
     const auto add_map = [&](Jobs& jobs, const SensorGrid& grid) {
         const EffortWords effort = effort_of(project, options, map_accuracy);
-        MapJob job{grid,
-                   {effort.samples, effort.accuracy, effort.seed, effort.threads, effort.unbiased},
-                   {folder / (grid.name + ".csv")},
-                   lit.provenance,
-                   lit.report};
+        MapJob job{grid, grid_settings(effort), {folder / (grid.name + ".csv")}, lit.provenance, lit.report};
+        job.time_s = effort.time_s;
         if (grid.rows > 0)
             job.files.insert(job.files.end(), {folder / (grid.name + ".png"), folder / (grid.name + ".exr")});
         if (wanted(grid.name))
@@ -125,6 +150,7 @@ Jobs jobs_of(const Project& project, const RunOptions& options, const LitScene& 
         for (const SensorGrid& grid : lit.scene.grids)
             add_map(jobs, grid);
     }
+    share(jobs);
     return jobs;
 }
 
@@ -158,7 +184,7 @@ Status run_project(const RunOptions& options, std::ostream& out, std::ostream& e
         out << lit.provenance["sky"] << '\n';
     std::error_code told_by_the_writer; // which names the folder that is missing
     std::filesystem::create_directories(project.output.folder, told_by_the_writer);
-    const Simulation simulation(std::move(lit.scene));
+    const Simulation simulation(std::move(lit.scene), options.effort.preparation);
     catch_interrupts();
     Status status = Status::done;
     for (std::size_t i = 0; i < jobs.maps.size() && status == Status::done; ++i)
@@ -183,9 +209,11 @@ void add_run(CLI::App& app, Status& status)
         ->type_name("NAME");
     add_effort_words(command, options->effort, picture_accuracy);
     add_unbiased_flag(command, options->effort);
+    add_time_words(command, options->effort, nullptr);
+    add_ambient_file(command, options->effort);
     command.footer(examples);
     command.callback([options, &status, &command] {
-        options->accuracy_given = command.count("--accuracy") > 0;
+        check_effort(options->effort);
         options->seed_given = command.count("--seed") > 0;
         status = run_project(*options, std::cout, std::cerr);
     });

@@ -5,9 +5,11 @@ LADDERS = {
     "samples": {"": ["--samples 32", "--samples 128", "--samples 512", "--samples 2048", "--samples 8192"],
                 "d": ["--samples 8", "--samples 16", "--samples 32"]},
     "accuracy": {"": ["--accuracy 10%", "--accuracy 5%", "--accuracy 2%", "--accuracy 1%", "--accuracy 0.5%"]},
-    "quality": {"": ["--quality low", "--quality medium", "--quality high"]},
+    "quality": {"": ["--quality draft", "--quality normal", "--quality fine"]},
     "time": {"": ["--time 0.1s", "--time 0.3s", "--time 1s", "--time 3s", "--time 10s"]},
 }
+# Techniques that can be switched off, one at a time; `--also "--without NAME"` measures a row without one.
+TECHNIQUES = ("ambient", "cache", "gradients", "hessian", "image", "adaptive", "subdivision", "virtual", "tree", "analytic")
 
 
 def lightwell_ladder(kind, row):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Accuracy per second beside Radiance: error and CPU seconds of both on the same points, in one run.
 
-    yardstick.py [ROW ...] --yardstick FOLDER [--ladder samples|accuracy|quality|time] [--also "--cache off"]
+    yardstick.py [ROW ...] --yardstick FOLDER [--ladder samples|accuracy|quality|time] [--also "--without cache"]
                  [--seeds 5] [--without-radiance]
 
 Rows: a80 a95 a99 b c c_blended d g (all without an argument). FOLDER has the scenes' generators and references;
