@@ -13,11 +13,11 @@ that).
 
 import argparse
 import json
+import math
 import pathlib
+import statistics
 import sys
 import tempfile
-
-import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 from leak_scenes import SCENES
@@ -31,16 +31,18 @@ PICTURE = ["--size", "320x240", "--png"]
 
 def compare(found, right):
     """@return  measures of one setting, differences reduced by three standard errors of both"""
-    value, error = (np.array(found[name]) for name in ("illuminance_lx", "error_lx"))
-    truth, truth_error = (np.array(right[name]) for name in ("illuminance_lx", "error_lx"))
-    scale = np.maximum(truth, DARKEST_SHARE * truth.mean())
-    difference = value - truth
-    beyond = np.maximum(np.abs(difference) - SIGMAS * np.hypot(error, truth_error), 0)
-    worst = int(np.argmax(beyond / scale))
-    return {"rms": float(np.sqrt(np.mean((difference / scale) ** 2))), "mbe": float(np.mean(difference / scale)),
-            "largest_beyond_noise": float((beyond / scale)[worst]), "worst_point": worst,
-            "worst_found_lx": float(value[worst]), "worst_right_lx": float(truth[worst]),
-            "brightest_beyond_of_mean": float(beyond.max() / truth.mean()), "truth_noise": float(np.mean(truth_error / scale))}
+    truth = right["illuminance_lx"]
+    mean = statistics.fmean(truth)
+    scales = [max(value, DARKEST_SHARE * mean) for value in truth]
+    differences = [value - expected for value, expected in zip(found["illuminance_lx"], truth)]
+    noise = [math.hypot(a, b) for a, b in zip(found["error_lx"], right["error_lx"])]
+    beyond = [max(abs(difference) - SIGMAS * error, 0) for difference, error in zip(differences, noise)]
+    relative = [difference / scale for difference, scale in zip(differences, scales)]
+    worst = max(range(len(truth)), key=lambda i: beyond[i] / scales[i])
+    return {"rms": math.sqrt(statistics.fmean(value * value for value in relative)), "mbe": statistics.fmean(relative),
+            "largest_beyond_noise": beyond[worst] / scales[worst], "worst_point": worst,
+            "worst_found_lx": found["illuminance_lx"][worst], "worst_right_lx": truth[worst],
+            "brightest_beyond_of_mean": max(beyond) / mean}
 
 
 def pictures(name, scene, view, settings, plain, folder):
