@@ -2,7 +2,7 @@
 
 # Lightwell: what follows `--samples`, `--accuracy` or `--quality`, cheapest first.
 LADDERS = {
-    "samples": {"": ["--samples 32", "--samples 128", "--samples 512", "--samples 2048", "--samples 8192"],
+    "samples": {"": ["--samples 32", "--samples 128", "--samples 512", "--samples 2048"],
                 "d": ["--samples 8", "--samples 16", "--samples 32"]},
     "accuracy": {"": ["--accuracy 10%", "--accuracy 5%", "--accuracy 2%", "--accuracy 1%", "--accuracy 0.5%"]},
     "quality": {"": ["--quality draft", "--quality normal", "--quality fine"]},

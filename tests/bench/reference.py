@@ -4,8 +4,9 @@
     reference.py ROW --runs N --yardstick FOLDER --keep FOLDER
 
     g                     Lightwell, plain path tracing, 131,072 samples a point and run
-    c_blended             Radiance without cache: mirrored suns, 900 divisions, any number of bounces
-    c                     the same plus the small difference that the other sky makes, found by itself
+    c_blended             Radiance without cache: mirrored suns, 900 divisions, any number of bounces; and Lightwell, plain path
+                          tracing, 32,768 samples, --lightwell-runs of them; weighted by their noise
+    c                     the same plus the small difference that the other sky makes, found by Radiance by itself
     d, d_point            bench_exhaustive_spots (to be built first): 8192 places on every lamp; one run is all there is
 
 Each run is kept as a file in --keep, and a call goes on where the last one stopped. Writes a file of references/ with the
@@ -32,6 +33,7 @@ BRUTE = "-u+ -aa 0 -as 0 -lr -24 -lw 1e-8 -ds 0 -dj 1 -dt 0 -dc 1 -dr 2 -st 0 -s
 PLACES = 8192
 EXHAUSTIVE = ROOT / "build/release/tests/bench/bench_exhaustive_spots"
 SAMPLES = 131072
+SAMPLES_BESIDE = 32768  # where Radiance is asked as well
 COMMANDS = {"g": f"lightwell illuminance --samples {SAMPLES}", "c": f"rtrace {BRUTE}", "c_blended": f"rtrace {BRUTE}",
             "d": f"bench_exhaustive_spots, {PLACES} places on each lamp",
             "d_point": f"bench_exhaustive_spots, {PLACES} places on each lamp"}
@@ -84,22 +86,52 @@ def kept_runs(row, points, keep, count):
     return np.array([np.loadtxt(keep / f"run_{number}.txt") for number in range(1, count + 1)])
 
 
+def beside(row, points, keep, count):
+    """Plain path tracing by Lightwell. @return  mean values and their standard errors, from those that the runs state"""
+    found = []
+    for number in range(1, count + 1):
+        file = keep / f"lightwell_{number}.txt"
+        if not file.exists():
+            words = ["--samples", SAMPLES_BESIDE, "--seed", number, "--threads", 1, "--unbiased"]
+            table = illuminance(row.scene, points, row.scene.with_suffix(".csv"), words)[1]
+            np.savetxt(file, np.column_stack([table["illuminance_lx"], table["error_lx"]]) / LUMENS_PER_WATT, fmt="%.9g")
+        found.append(np.loadtxt(file))
+    values, errors = np.array(found).transpose(2, 0, 1)
+    return values.mean(axis=0), np.sqrt((errors ** 2).sum(axis=0)) / count
+
+
+def weighted(first, second):
+    """Two independent estimates by the inverse of their mean variances; says how they differ on standard output."""
+    variances = [float(np.mean((error / compared_with(values)) ** 2)) for values, error in (first, second)]
+    share = variances[1] / sum(variances)
+    difference = (second[0] - first[0]) / compared_with(first[0])
+    print(f"the two differ by {100 * difference.mean():+.2f} % in the mean, {100 * np.sqrt(np.mean(difference ** 2)):.2f} % RMS "
+          f"a point; expected from their noise {100 * np.sqrt(sum(variances)):.2f} %")
+    return (share * first[0] + (1 - share) * second[0],
+            np.hypot(share * first[1], (1 - share) * second[1]))
+
+
 def estimate(asked, row, points):
     """@return  values, standard errors, and how many runs they come from, in words"""
     if asked.row.startswith("d"):
         return *exhaustive(row, points, asked.keep), ""
     runs = kept_runs(row, points, asked.keep, asked.runs)
     values, error = runs.mean(axis=0), runs.std(axis=0, ddof=1) / np.sqrt(len(runs))
+    how = f", {len(runs)} independent runs"
+    if asked.lightwell_runs and asked.row.startswith("c"):
+        values, error = weighted((values, error), beside(row, points, asked.keep, asked.lightwell_runs))
+        how += f"; and lightwell illuminance --unbiased --samples {SAMPLES_BESIDE}, {asked.lightwell_runs} runs"
     if asked.row == "c":
         values = values + difference(row, points)
-    return values, error, f", {len(runs)} independent runs"
+    return values, error, how
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("row", choices=FILES)
     parser.add_argument("--runs", type=int, default=16)
-    parser.add_argument("--yardstick", type=pathlib.Path, default=os.environ.get("LIGHTWELL_YARDSTICK"), required=False)
+    parser.add_argument("--lightwell-runs", type=int, default=0, help="of c and c_blended, beside those of Radiance")
+    parser.add_argument("--yardstick", type=pathlib.Path, default=os.environ.get("LIGHTWELL_YARDSTICK"))
     parser.add_argument("--keep", type=pathlib.Path, required=True)
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as work:

@@ -31,19 +31,18 @@ PICTURE = ["--size", "320x240", "--png"]
 
 def compare(found, right):
     """@return  measures of one setting, differences reduced by three standard errors of both"""
-    value, error = found["illuminance_lx"], found["error_lx"]
-    truth, truth_error = right["illuminance_lx"], right["error_lx"]
+    truth = right["illuminance_lx"]
     mean = statistics.fmean(truth)
-    scale = [max(t, DARKEST_SHARE * mean) for t in truth]
-    difference = [v - t for v, t in zip(value, truth)]
-    beyond = [max(abs(d) - SIGMAS * math.hypot(e, te), 0) for d, e, te in zip(difference, error, truth_error)]
-    relative = [d / s for d, s in zip(difference, scale)]
-    worst = max(range(len(value)), key=lambda i: beyond[i] / scale[i])
-    return {"rms": math.sqrt(statistics.fmean(r * r for r in relative)), "mbe": statistics.fmean(relative),
-            "largest_beyond_noise": beyond[worst] / scale[worst], "worst_point": worst,
-            "worst_found_lx": value[worst], "worst_right_lx": truth[worst],
-            "brightest_beyond_of_mean": max(beyond) / mean,
-            "truth_noise": statistics.fmean(e / s for e, s in zip(truth_error, scale))}
+    scales = [max(value, DARKEST_SHARE * mean) for value in truth]
+    differences = [value - expected for value, expected in zip(found["illuminance_lx"], truth)]
+    noise = [math.hypot(a, b) for a, b in zip(found["error_lx"], right["error_lx"])]
+    beyond = [max(abs(difference) - SIGMAS * error, 0) for difference, error in zip(differences, noise)]
+    relative = [difference / scale for difference, scale in zip(differences, scales)]
+    worst = max(range(len(truth)), key=lambda i: beyond[i] / scales[i])
+    return {"rms": math.sqrt(statistics.fmean(value * value for value in relative)), "mbe": statistics.fmean(relative),
+            "largest_beyond_noise": beyond[worst] / scales[worst], "worst_point": worst,
+            "worst_found_lx": found["illuminance_lx"][worst], "worst_right_lx": truth[worst],
+            "brightest_beyond_of_mean": max(beyond) / mean}
 
 
 def pictures(name, scene, view, settings, plain, folder):
