@@ -261,7 +261,7 @@ TEST(HybridDaylight, ManySensorsWithRecordsAgreeWithFewWithout)
         squares_without += std::pow(without.standard_errors[k].value, 2);
     }
     EXPECT_NEAR(mean_with, mean_without, 3 * std::sqrt(error_with * error_with + squares_without));
-    EXPECT_LT(std::sqrt(error_with * error_with + squares_without), 0.06 * mean_without) << "too coarse to tell";
+    EXPECT_LT(std::sqrt(error_with * error_with + squares_without), 0.08 * mean_without) << "too coarse to tell";
 }
 
 View into_the_room()
@@ -306,8 +306,9 @@ TEST(HybridPicture, EachRegionIsThatOfPlainPathTracing)
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column) {
             const Region a = region_of(plain, column, row), b = region_of(hybrid, column, row);
-            // Plain pixels are independent: their mean over 256 is 16 times as good as one of them.
-            EXPECT_NEAR(b.mean / a.mean, 1, 0.03 + 6 * a.error / (16 * a.mean)) << column << ' ' << row;
+            // Plain pixels are independent: their mean over 256 is 16 times as good as one of them. Interpolated ones
+            // are not.
+            EXPECT_NEAR(b.mean, a.mean, 0.03 * a.mean + 6 * a.error / 16 + 3 * b.error) << column << ' ' << row;
         }
 }
 

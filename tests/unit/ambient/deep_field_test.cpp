@@ -105,8 +105,9 @@ TEST(DeepField, WhereNoSiteIsNearNothingAnswers)
     const SphereRays rays(&deep, 0.5, [](const Point&) { return 1.0; });
     deep.place(sphere_places(100), rays, 2, settings_for());
     EXPECT_EQ(deep.weights({0, 0, 0}, {0, 0, 1}, found), 0u);
-    EXPECT_EQ(deep.weights({0, 0, 1}, {0, 0, 1}, found), 0u) << "the outside of the sphere";
-    EXPECT_GT(deep.weights({0, 0, 1}, {0, 0, -1}, found), 0u);
+    const SurfacePlace known = sphere_places(100).front();
+    EXPECT_EQ(deep.weights(known.position, -known.normal, found), 0u) << "the outside of the sphere";
+    EXPECT_GT(deep.weights(known.position, known.normal, found), 0u);
 }
 
 TEST(DeepField, NoCandidatesGiveAnEmptyField)

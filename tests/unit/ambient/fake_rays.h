@@ -24,8 +24,8 @@ public:
                    std::vector<Dependence>& dependences) const override
     {
         Arrival arrival;
-        arrival.distance_m = distance_m(from, direction);
-        Point at = normalized(from.position + direction * arrival.distance_m);
+        arrival.met = meet(from, direction);
+        Point at = normalized(from.position + direction * arrival.met.distance_m);
         double throughput = 1, reflected = 0;
         for (;;) {
             throughput *= reflectance_;
@@ -38,7 +38,7 @@ public:
                 break;
             const SurfacePlace here = place_at(at); // nothing is known there: the path goes on
             const Direction on = hemisphere_direction(frame_about(here.normal), random.pair());
-            at = normalized(at + on * distance_m(here, on));
+            at = normalized(at + on * meet(here, on).distance_m);
         }
         arrival.irradiance = Spectrum::grey(reflected);
         arrival.radiance = arrival.irradiance / pi;
@@ -50,13 +50,14 @@ public:
         found = place_at(normalized(flat));
         return length(found.position - flat) < lift_m;
     }
-    double distance_m(const SurfacePlace& from, const Direction& direction) const override
+    Met meet(const SurfacePlace& from, const Direction& direction) const override
     {
-        return std::max(1e-9, -2 * dot(from.position, direction));
+        const double distance = std::max(1e-9, -2 * dot(from.position, direction));
+        return {distance, -normalized(from.position + direction * distance)};
     }
-    DirectIrradiance direct(const SurfacePlace& place, bool, PathRandom&) const override
+    DirectIrradiance direct(const SurfacePlace& place, PathRandom&) const override
     {
-        return {Spectrum::grey(direct_(place.position)), 0};
+        return {Spectrum::grey(direct_(place.position)), {}, 0};
     }
 
 private:
@@ -79,8 +80,8 @@ public:
                    std::vector<Dependence>&) const override
     {
         Arrival arrival;
-        arrival.distance_m = distance_m(from, direction);
-        const Point at = from.position + direction * arrival.distance_m;
+        arrival.met = meet(from, direction);
+        const Point at = from.position + direction * arrival.met.distance_m;
         if (at.z > height_m * (1 - 1e-12))
             arrival.radiance = Spectrum::grey(radiance(at));
         arrival.irradiance = arrival.radiance * pi;
@@ -92,14 +93,14 @@ public:
         found = place_at(x, place.position.y + offset.y);
         return x * place.position.x > 0 || lift_m < wall_gap_m;
     }
-    double distance_m(const SurfacePlace& from, const Direction& direction) const override
+    Met meet(const SurfacePlace& from, const Direction& direction) const override
     {
         const double up = (height_m - from.position.z) / direction.z;
         const double aside = -from.position.x / direction.x;
         const bool meets_wall = aside > 0 && aside < up && from.position.z + aside * direction.z > wall_gap_m;
-        return meets_wall ? aside : up;
+        return meets_wall ? Met{aside, {direction.x > 0 ? -1.0 : 1.0, 0, 0}} : Met{up, {0, 0, -1}};
     }
-    DirectIrradiance direct(const SurfacePlace&, bool, PathRandom&) const override { return {}; }
+    DirectIrradiance direct(const SurfacePlace&, PathRandom&) const override { return {}; }
 };
 
 } // namespace lightwell

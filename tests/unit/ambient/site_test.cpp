@@ -21,6 +21,12 @@ double distance_to(const AmbientSite& site, const Vec3& offset, const Direction&
     return site_distance(site, site.position + offset, normal);
 }
 
+/// What an upright wall that faces the site gives back to a ray.
+Met wall_at(double distance_m, const Direction& ray)
+{
+    return {distance_m, normalized({-ray.x, -ray.y, 0})};
+}
+
 TEST(AmbientSite, DistanceCountsInReachesAndEndsAtOne)
 {
     const AmbientSite site = flat_site(2, 2);
@@ -93,40 +99,41 @@ TEST(AmbientSite, NothingIsSharedWithWhatLiesBehindAnObstacle)
     AmbientSite site = flat_site(4, 4);
     const double elevation = 10 * radians_per_degree;
     const Direction low{std::cos(elevation) * std::cos(0.2), std::cos(elevation) * std::sin(0.2), std::sin(elevation)};
-    add_horizon(site, low, 1 / std::cos(elevation));
+    add_horizon(site, low, wall_at(1 / std::cos(elevation), low));
     const Vec3 way{std::cos(0.2), std::sin(0.2), 0};
-    EXPECT_NEAR(distance_to(site, way * 0.9), 0.225, 1e-9);
+    EXPECT_NEAR(distance_to(site, way * 0.99), 0.2475, 1e-9);
     EXPECT_EQ(distance_to(site, way * 1.01), infinity);
     EXPECT_EQ(distance_to(site, way * 3), infinity);
     EXPECT_NEAR(distance_to(site, way * -3), 0.75, 1e-9) << "the other way is free";
     EXPECT_NEAR(distance_to(site, {0, 3, 0}), 0.75, 1e-9);
 }
 
-/// A straight wall, one low ray in each sector, at worst at the far edge of the sector: nothing beyond it answers.
-TEST(AmbientSite, AStraightWallHidesAllThatLiesBehindItWhateverRaysMetIt)
+/// A straight wall, met by two low rays in each sector: nothing beyond it answers, at whatever azimuth its foot lies.
+TEST(AmbientSite, AStraightWallHidesAllThatLiesBehindIt)
 {
-    for (const double share : {0.0, 0.5, 0.999})
-        for (const double turn : {0.0, 0.1, 0.2, 0.35}) {
-            AmbientSite site = flat_site(8, 8);
-            const auto to_wall = [&](double azimuth) { return 1 / std::cos(azimuth - turn); };
-            for (int sector = 0; sector < horizon_sectors; ++sector) {
-                const double azimuth = 2 * pi * ((sector + share) / horizon_sectors);
-                const double away = to_wall(azimuth);
-                if (away > 0)
-                    add_horizon(site, normalized({std::cos(azimuth), std::sin(azimuth), 1e-3}), away);
+    for (double turn = 0; turn < 2 * pi; turn += 0.07) {
+        AmbientSite site = flat_site(8, 8);
+        const auto to_wall = [&](double azimuth) { return 1 / std::cos(azimuth - turn); };
+        for (int ray = 0; ray < 2 * horizon_sectors; ++ray) {
+            const double azimuth = 2 * pi * ((ray + 0.5) / (2 * horizon_sectors));
+            const double away = to_wall(azimuth);
+            if (away > 0) {
+                const Direction low = normalized({std::cos(azimuth), std::sin(azimuth), 1e-6});
+                add_horizon(site, low, wall_at(away, low));
             }
-            int near_side = 0, asked = 0;
-            for (int i = 0; i < 360; ++i) {
-                const double azimuth = 2 * pi * (i + 0.5) / 360, wall = to_wall(azimuth);
-                if (!(wall > 0 && wall < 7))
-                    continue;
-                const Vec3 way{std::cos(azimuth), std::sin(azimuth), 0};
-                EXPECT_EQ(distance_to(site, way * (wall * 1.001)), infinity) << share << ' ' << turn << ' ' << i;
-                near_side += distance_to(site, way * (wall * 0.6)) < 1 ? 1 : 0;
-                ++asked;
-            }
-            EXPECT_GT(near_side, asked / 2) << "this side of the wall is still served";
         }
+        int near_side = 0, asked = 0;
+        for (int i = 0; i < 360; ++i) {
+            const double azimuth = 2 * pi * (i + 0.5) / 360, wall = to_wall(azimuth);
+            if (!(wall > 0 && wall < 7))
+                continue;
+            const Vec3 way{std::cos(azimuth), std::sin(azimuth), 0};
+            EXPECT_EQ(distance_to(site, way * (wall * 1.001)), infinity) << turn << ' ' << i;
+            near_side += distance_to(site, way * (wall * 0.8)) < 1 ? 1 : 0;
+            ++asked;
+        }
+        EXPECT_GT(near_side, asked / 2) << "this side of the wall is still served";
+    }
 }
 
 TEST(AmbientSite, TheNearestObstacleOfASectorCounts)
@@ -134,7 +141,7 @@ TEST(AmbientSite, TheNearestObstacleOfASectorCounts)
     AmbientSite site = flat_site(4, 4);
     const Direction low = normalized({1, 0.2, 0.01});
     for (const double distance : {3.0, 1.0, 2.0})
-        add_horizon(site, low, distance);
+        add_horizon(site, low, wall_at(distance, low));
     EXPECT_EQ(distance_to(site, {1.2, 0.24, 0}), infinity);
     EXPECT_LT(distance_to(site, {0.8, 0.16, 0}), 1);
 }
@@ -142,10 +149,20 @@ TEST(AmbientSite, TheNearestObstacleOfASectorCounts)
 TEST(AmbientSite, WhatStandsHigherThanFortyFiveDegreesHidesNothing)
 {
     AmbientSite site = flat_site(4, 4);
-    add_horizon(site, normalized({1, 0, 1.01}), 0.1);
-    add_horizon(site, normalized({1, 0, 0.1}), infinity);
+    add_horizon(site, normalized({1, 0, 1.01}), wall_at(0.1, {1, 0, 0}));
+    add_horizon(site, normalized({1, 0, 0.1}), Met{});
     EXPECT_EQ(site.least_horizon_m, infinity);
     EXPECT_NEAR(distance_to(site, {3, 0, 0}), 0.75, 1e-12);
+}
+
+/// A bowl's floor bends up before the ray: its places are told by their normals, not by a horizon.
+TEST(AmbientSite, TheSurfaceItselfThatBendsUpHidesNothing)
+{
+    AmbientSite site = flat_site(4, 4);
+    add_horizon(site, normalized({1, 0, 0.01}), {0.5, normalized({-0.1, 0, 1})});
+    EXPECT_NEAR(distance_to(site, {3, 0, 0}), 0.75, 1e-12);
+    add_horizon(site, normalized({1, 0, 0.01}), {0.5, normalized({-1, 0, 1})});
+    EXPECT_EQ(distance_to(site, {3, 0, 0}), infinity);
 }
 
 TEST(AmbientSite, NumbersThatAreNoneAreInfinitelyFar)
