@@ -24,8 +24,8 @@ TEST(ClosedSphere, InterreflectionSumsToTheGeometricSeries)
         const double a = 0.1, direct = pi * 1000 * a * a;
         const double expected = direct / (1 - reflectance * (1 - a * a));
         const Simulation sphere = sphere_with_lamp(reflectance, a);
-        expect_agrees(pooled_illuminance_at(sphere, {{0, 0, -1 + 1e-9}, {0, 0, 1}}, 1 << 15), expected, 0.02, 1e-9,
-                      pooled_interval);
+        expect_agrees(pooled_illuminance_at(sphere, {{0, 0, -1 + 1e-9}, {0, 0, 1}}, 1 << 15), expected, 0.02, 1e-8,
+                      pooled_interval); // the sensor lies 1e-9 off the wall, nearer to the lamp
     }
 }
 
