@@ -84,6 +84,18 @@ void add_effort_words(CLI::App& command, EffortWords& words, double accuracy)
     add_without(command, words);
 }
 
+void add_unbiased_flag(CLI::App& command, EffortWords& words)
+{
+    command.add_flag("--unbiased", words.unbiased,
+                     "plain path tracing: nothing is stored and interpolated, only noise");
+}
+
+void add_plan_flag(CLI::App& command, EffortWords& words)
+{
+    command.add_flag("--plan", words.plan,
+                     "first predicts cost and error; they stand beside what was reached in NAME.run.json");
+}
+
 void add_time_words(CLI::App& command, EffortWords& words, SkyWords* sky)
 {
     const auto wish = [&words](const std::string& text) {

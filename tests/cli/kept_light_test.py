@@ -11,7 +11,7 @@ import unittest
 from cli_test import BAD_INPUT, DONE, PROGRAM, USAGE, Case
 from scenes import ROOM_RAD, VIEW
 
-OTHER_VIEW = "-vtv -vp 3.5 2.5 1.4 -vd -0.8 -0.6 -0.1 -vu 0 0 1 -vh 60 -vv 45"
+OTHER_VIEW = "-vtv -vp 0.8 0.4 1.4 -vd 0.6 0.7 -0.2 -vu 0 0 1 -vh 60 -vv 45"  # sees much of what VIEW sees
 SIZE = ("--size", "96x72", "--samples", "8", "--accuracy", "10%")
 FILE = ("--ambient-file", "room.amb")
 
