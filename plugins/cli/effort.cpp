@@ -135,18 +135,6 @@ void add_ambient_file(CLI::App& command, EffortWords& words)
         ->type_name("FILE");
 }
 
-void add_unbiased_flag(CLI::App& command, EffortWords& words)
-{
-    command.add_flag("--unbiased", words.unbiased,
-                     "plain path tracing: nothing is stored and interpolated, only noise");
-}
-
-void add_plan_flag(CLI::App& command, EffortWords& words)
-{
-    command.add_flag("--plan", words.plan,
-                     "first predicts cost and error; they stand beside what was reached in NAME.run.json");
-}
-
 void check_effort(const EffortWords& words)
 {
     if (words.time_s > 0 && (words.accuracy_given || words.samples > 0))

@@ -30,7 +30,7 @@ inline constexpr double interval = 13.9;
 
 /// The value agrees with the expected one, and was measured finely enough to notice a relative bias of `bias`.
 /// @param errors  standard errors within which it must agree
-inline void expect_agrees(const Found& found, double expected, double bias, double reference_error = 4e-9,
+inline void expect_agrees(const Found& found, double expected, double bias, double reference_error = 1e-9,
                           double errors = interval)
 {
     EXPECT_NEAR(found.value, expected, errors * found.error + reference_error * std::fabs(expected));
