@@ -12,7 +12,7 @@ constexpr std::uint64_t walk_salt = 0x77616c6b;
 /// Diffuse scatterings along a path that looks for sites: the third bounce reaches about every corner of a room.
 constexpr int walk_scatterings = 3;
 /// A kept deep field serves another view when it answers at this share of what that view's paths meet.
-constexpr double answered_share = 0.98;
+constexpr double answered_share = 0.9;
 
 int power_of_two(double x, int least, int most)
 {

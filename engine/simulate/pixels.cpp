@@ -16,14 +16,6 @@ constexpr std::size_t illuminance_at = 3, depth_at = 4, normal_at = 5, luminance
 /// Cosine between normals, and relative difference of distances, of what counts as the same surface.
 constexpr double same_cosine = 0.98, same_distance = 0.1;
 
-bool same_surface(const Sight& a, const Sight& b)
-{
-    if (a.met_surface != b.met_surface)
-        return false;
-    return !a.met_surface || (a.modifier == b.modifier && dot(a.normal, b.normal) > same_cosine &&
-                              std::fabs(a.distance_m - b.distance_m) <= same_distance * a.distance_m);
-}
-
 /// Whether the values lie within a share of their mean, or differ no more than by their noise.
 bool close(const double* values, const double* errors, std::size_t count, double tolerance)
 {
@@ -34,6 +26,14 @@ bool close(const double* values, const double* errors, std::size_t count, double
 }
 
 } // namespace
+
+bool same_surface(const Sight& a, const Sight& b)
+{
+    if (a.met_surface != b.met_surface)
+        return false;
+    return !a.met_surface || (a.modifier == b.modifier && dot(a.normal, b.normal) > same_cosine &&
+                              std::fabs(a.distance_m - b.distance_m) <= same_distance * a.distance_m);
+}
 
 PixelResult PixelTask::measure(int x, int y, int samples) const
 {

@@ -11,6 +11,9 @@
 /// \file Pixels of one picture; nothing outside engine/simulate includes it.
 namespace lightwell {
 
+/// Whether two sights show the same surface, near enough to interpolate between them.
+bool same_surface(const Sight& a, const Sight& b);
+
 inline constexpr std::size_t pixel_channel_count = 13;
 extern const char* const pixel_channels[pixel_channel_count];
 /// One value for each of pixel_channels.

@@ -14,9 +14,10 @@ namespace {
 constexpr int pilot_columns = 24, pilot_rows = 16, check_columns = 8, check_rows = 6;
 constexpr int check_paths = 16 * replicates;
 /// Records of ambient light are looked for at every so many pixels, then between them.
-constexpr int first_stride = 32, second_stride = 16, last_stride = 4;
-/// From the second stride on, no more records are made where so large a share of the places would need one.
-constexpr double most_new = 0.7;
+constexpr int first_stride = 32, last_stride = 4;
+/// They are used only where so large a share of the pixels shows the same surface as the next one: leaves and needles
+/// would need a record each.
+constexpr double least_connected = 0.5;
 
 Picture empty_picture(int width, int height)
 {
@@ -86,6 +87,21 @@ struct Sights {
         out = {start.origin, start.direction, start.reach_m};
         return true;
     }
+    /// Share of an even lattice of pixels that show the same surface as the pixel beside them.
+    double connected() const
+    {
+        int shown = 0, same = 0;
+        for (int y = first_stride / 4; y < height; y += first_stride / 2)
+            for (int x = first_stride / 4; x + 1 < width; x += first_stride / 2) {
+                Ray here, beside;
+                if (!ray(x, y, here) || !ray(x + 1, y, beside))
+                    continue;
+                const Sight sight = tracer.sight(here);
+                shown += sight.met_surface ? 1 : 0;
+                same += sight.met_surface && same_surface(sight, tracer.sight(beside)) ? 1 : 0;
+            }
+        return shown > 0 ? static_cast<double>(same) / shown : 1;
+    }
     void candidates(int x, int y, std::vector<AmbientCandidate>& found) const
     {
         Ray here, beside;
@@ -108,7 +124,7 @@ void build(AmbientBuild& ambient, const Sights& sights, const Techniques& techni
     ambient.build_deep(pixels, [&](std::size_t i, PathRandom&, Ray& ray) {
         return sights.ray(static_cast<int>(i % width), static_cast<int>(i / width), ray);
     });
-    if (!techniques.cache)
+    if (!techniques.cache || sights.connected() < least_connected)
         return;
     for (int stride = first_stride; stride >= last_stride; stride /= 2) {
         const int offset = stride / 2;
@@ -123,11 +139,8 @@ void build(AmbientBuild& ambient, const Sights& sights, const Techniques& techni
         for (const auto& row : of_row)
             candidates.insert(candidates.end(), row.begin(), row.end());
         teller.check();
-        // Leaves and needles have a place of their own at every pixel: records would be used once.
-        const bool fragmented = ambient.grow(candidates) > most_new * static_cast<double>(candidates.size());
+        ambient.grow(candidates);
         teller.done_one();
-        if (fragmented && stride <= second_stride)
-            return;
     }
 }
 
