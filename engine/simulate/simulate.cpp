@@ -43,7 +43,9 @@ int whole_replicates(int samples)
 int samples_for(double found, int pilot, double wanted, int most) noexcept
 {
     const double ratio = found / wanted;
-    const double samples = std::min(pilot * ratio * ratio, static_cast<double>(most));
+    // Fewer samples than the pilot run's lose more than 1 / sqrt(n): stratified ones err like 1 / n.
+    const double wanted_samples = ratio < 1 ? pilot * ratio : pilot * ratio * ratio;
+    const double samples = std::min(wanted_samples, static_cast<double>(most));
     return whole_replicates(static_cast<int>(std::ceil(samples)));
 }
 
