@@ -17,7 +17,7 @@ constexpr double most_stretch = 3;
 /// ... and in footprints.
 constexpr double least_footprints = 6;
 /// Predicted change within the reach, relative.
-constexpr double most_change = 1;
+constexpr double most_change = 0.5;
 /// Keep random numbers of rays and of shadow rays apart.
 constexpr std::uint64_t record_salt = 0x7265636f, direct_salt = 0x64697265;
 
@@ -76,6 +76,19 @@ double lamp_share_at(const SurfacePlace& place, std::uint64_t key, const Hemisph
     return share;
 }
 
+/// Within its reach a record never tells of more change than its own value: near corners gradients are noisy, and the
+/// least reach may be longer than they hold.
+void limit_gradient(AmbientRecord& record)
+{
+    const double reach = std::max(record.site.reach_m[0], record.site.reach_m[1]);
+    for (int c = 0; c < 3; ++c) {
+        Vec3& slope = record.gradient.translation[c];
+        const double change = length(slope) * reach, most = most_change * record.irradiance[c];
+        if (change > most)
+            slope = slope * (most / change);
+    }
+}
+
 } // namespace
 
 bool AmbientCache::covers(const SurfacePlace& place) const noexcept
@@ -131,6 +144,7 @@ AmbientRecord AmbientCache::trace(const AmbientCandidate& candidate, std::uint64
     if (settings.gradients)
         record.gradient = gradient_of(mean);
     set_reach(record, mean, candidate.footprint_m, size_m, settings);
+    limit_gradient(record);
     return record;
 }
 

@@ -157,8 +157,8 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         Teller teller(progress, "pilot run, grid " + grid.name, pilot_sensors);
         const Some some =
             measure_some(task, pilot_paths, step_for(receivers.size(), pilot_sensors), settings.threads, teller);
-        result.samples =
-            samples_for(median_relative(some.values, some.errors), pilot_paths, settings.accuracy, most_samples);
+        result.samples = samples_for(median_relative(some.values, some.errors), pilot_paths, settings.accuracy,
+                                     most_samples, plain ? 0.5 : 1);
     }
     Teller teller(progress, "grid " + grid.name, receivers.size());
     const Some all = measure_some(task, result.samples, 1, settings.threads, teller);

@@ -196,9 +196,13 @@ bool PathTracer::find_ambient(const Walk& walk, const Vertex& vertex, AmbientHer
         if (side.reflected.is_black() && !(i == 0 && walk.at_first))
             continue;
         const Direction normal = i == 0 ? vertex.side : -vertex.side;
-        if (deep)
+        if (!deep && ambient_.cache->irradiance(vertex.hit.position, normal, side.cached))
+            continue;
+        // In corners and on things thinner than a few pixels no record answers: the deep field stands in for them.
+        const bool stands_in = !deep && !ambient_.cache->records().empty() && ambient_.deep != nullptr;
+        if (deep || stands_in)
             side.count = ambient_.deep->weights(vertex.hit.position, normal, side.weights);
-        if (deep ? side.count == 0 : !ambient_.cache->irradiance(vertex.hit.position, normal, side.cached))
+        if (side.count == 0)
             return false;
     }
     return true;
@@ -214,7 +218,7 @@ void PathTracer::add_ambient(Walk& walk, const AmbientHere& here) const
             continue;
         }
         Spectrum irradiance;
-        if (walk.bent) {
+        if (side.count > 0) {
             for (std::size_t i = 0; i < side.count; ++i)
                 irradiance += ambient_.deep->ambient(side.weights[i].site, walk.replicate) * side.weights[i].weight;
         } else if (const double level = photopic(side.cached.irradiance); level > 0) {

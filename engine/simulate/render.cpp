@@ -251,8 +251,8 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
         Teller teller(progress, "pilot run", pilot_columns * pilot_rows);
         const Lattice pilot =
             measure_lattice(pixel, whole, pilot_columns, pilot_rows, pilot_samples, settings.threads, teller);
-        result.samples =
-            samples_for(median_relative(pilot.values, pilot.errors), pilot_samples, settings.accuracy, most_samples);
+        result.samples = samples_for(median_relative(pilot.values, pilot.errors), pilot_samples, settings.accuracy,
+                                     most_samples, 0.5);
     }
     Teller teller(progress, "view " + view.name, tiles_of(wanted.width, wanted.height).size());
     const double tolerance = plain || !settings.techniques.image_sampling ? 0 : settings.accuracy;

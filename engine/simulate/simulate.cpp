@@ -40,11 +40,10 @@ int whole_replicates(int samples)
     return std::max(1, (samples + replicates - 1) / replicates) * replicates;
 }
 
-int samples_for(double found, int pilot, double wanted, int most) noexcept
+int samples_for(double found, int pilot, double wanted, int most, double order) noexcept
 {
     const double ratio = found / wanted;
-    // Fewer samples than the pilot run's lose more than 1 / sqrt(n): stratified ones err like 1 / n.
-    const double wanted_samples = ratio < 1 ? pilot * ratio : pilot * ratio * ratio;
+    const double wanted_samples = pilot * (ratio < 1 ? std::pow(ratio, 1 / order) : ratio * ratio);
     const double samples = std::min(wanted_samples, static_cast<double>(most));
     return whole_replicates(static_cast<int>(std::ceil(samples)));
 }
