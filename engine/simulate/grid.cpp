@@ -36,16 +36,17 @@ struct SensorTask {
     std::uint64_t seed;
     const DeepField* deep; ///< null: plain paths, or records of the cache
 
-    RunningStatistics operator()(std::size_t i, int samples) const
+    /// Illuminance of a sensor, lx, by replicate.
+    std::array<double, replicates> operator()(std::size_t i, int samples) const
     {
-        RunningStatistics mean;
+        std::array<double, replicates> found{};
         const auto each = static_cast<std::uint32_t>(samples / replicates);
         for (int r = 0; r < replicates; ++r) {
             const std::uint64_t key = mix_bits(seed, static_cast<std::uint64_t>(r));
-            mean.add(
-                illuminance_of(deep != nullptr ? by_hemisphere(i, r, key, each) : by_paths(i, r, key, each)).value);
+            found[static_cast<std::size_t>(r)] =
+                illuminance_of(deep != nullptr ? by_hemisphere(i, r, key, each) : by_paths(i, r, key, each)).value;
         }
-        return mean;
+        return found;
     }
 
 private:
@@ -85,21 +86,37 @@ private:
     }
 };
 
+RunningStatistics statistics_of(const std::array<double, replicates>& values)
+{
+    RunningStatistics statistics;
+    for (const double value : values)
+        statistics.add(value);
+    return statistics;
+}
+
 /// Every step-th sensor, from the first.
 struct Some {
     std::vector<double> values, errors;
+    double mean_error = 0; ///< of the mean over the sensors, which share their ambient light
 };
 Some measure_some(const SensorTask& task, int samples, std::size_t step, int threads, Teller& teller)
 {
     const std::size_t count = (task.places.size() + step - 1) / step;
     Some some{std::vector<double>(count), std::vector<double>(count)};
+    std::vector<std::array<double, replicates>> found(count);
     parallel_for(count, threads, [&](std::size_t k) {
         teller.check();
-        const RunningStatistics mean = task(k * step, samples);
-        some.values[k] = mean.mean();
-        some.errors[k] = mean.standard_error();
+        found[k] = task(k * step, samples);
+        const RunningStatistics statistics = statistics_of(found[k]);
+        some.values[k] = statistics.mean();
+        some.errors[k] = statistics.standard_error();
         teller.done_one();
     });
+    std::array<double, replicates> means{};
+    for (const auto& sensor : found)
+        for (std::size_t r = 0; r < replicates; ++r)
+            means[r] += sensor[r] / static_cast<double>(count);
+    some.mean_error = statistics_of(means).standard_error();
     return some;
 }
 
@@ -166,6 +183,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         result.values.push_back(Illuminance{all.values[i]});
         result.standard_errors.push_back(Illuminance{all.errors[i]});
     }
+    result.mean_standard_error = Illuminance{all.mean_error};
     result.median_relative_error = median_relative(all.values, all.errors);
     if (!plain) {
         const std::size_t step = step_for(receivers.size(), checked_sensors);

@@ -105,6 +105,7 @@ struct GridSettings {
 struct GridResult {
     std::vector<Illuminance> values;
     std::vector<Illuminance> standard_errors;
+    Illuminance mean_standard_error; ///< of the mean over the sensors: they share ambient light, so their errors too
     BiasEstimate bias;
     WorkCounts work;
     double median_relative_error = 0;

@@ -116,6 +116,7 @@ void write_files(const MapJob& job, const GridResult& result, double cpu_seconds
     record.wanted_time_s = job.time_s;
     record.replay = replay_words(job.settings.accuracy, result.samples, job.settings.seed);
     record.more = map_header(job, result);
+    record.more["mean_error_lx"] = shortest(result.mean_standard_error.value);
     record.report = job.report;
     record.report.add(result.report);
     write_run_record(job.files.front(), record);
@@ -144,18 +145,17 @@ void choose_work(const Simulation& simulation, MapJob& job, const Progress& prog
 MapSummary summarize(const GridResult& result)
 {
     MapSummary s;
-    double sum = 0, squared_errors = 0;
+    double sum = 0;
     s.minimum = infinity;
     for (std::size_t i = 0; i < result.values.size(); ++i) {
-        const double value = result.values[i].value, error = result.standard_errors[i].value;
+        const double value = result.values[i].value;
         sum += value;
-        squared_errors += error * error;
         s.minimum = std::fmin(s.minimum, value);
         s.maximum = std::fmax(s.maximum, value);
     }
     const auto count = static_cast<double>(result.values.size());
     s.mean = sum / count;
-    s.mean_error = std::sqrt(squared_errors) / count;
+    s.mean_error = result.mean_standard_error.value;
     s.uniformity = s.mean > 0 ? s.minimum / s.mean : 0;
     return s;
 }

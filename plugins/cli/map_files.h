@@ -26,7 +26,7 @@ struct MapJob {
 /// Mean, extremes and uniformity (minimum / mean) of a map, lx.
 struct MapSummary {
     double mean = 0, minimum = 0, maximum = 0, uniformity = 0;
-    double mean_error = 0; ///< standard error of the mean; the errors of the points are independent
+    double mean_error = 0; ///< standard error of the mean, from the replicates
 };
 MapSummary summarize(const GridResult& result);
 
