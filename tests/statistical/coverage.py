@@ -39,14 +39,14 @@ def measure(scene_file, points_file, folder, seed, options):
     The mean's error is the program's where it states one (`mean_error_lx` in map.run.json); else it is that of
     independent sensors, which those that share a cache are not: `mean, if independent`."""
     run, table = illuminance(scene_file, points_file, folder / "map.csv", [*options, "--seed", seed, "--threads", 1])
-    stated = json.loads((folder / "map.run.json").read_text())
+    stated = json.loads((folder / "map.run.json").read_text())["settings"]
     values, errors = table["illuminance_lx"], table["error_lx"]
     biases = table.get("bias_lx", [0.0] * len(values))
     count = len(values)
     independent = math.sqrt(sum(error * error for error in errors)) / count
     name = "mean" if MEAN_ERROR in stated else UNSTATED_MEAN
     return {"sensor": (values[SENSOR], errors[SENSOR], biases[SENSOR]),
-            name: (sum(values) / count, stated.get(MEAN_ERROR, independent), sum(biases) / count)}, run.cpu_s
+            name: (sum(values) / count, float(stated.get(MEAN_ERROR, independent)), sum(biases) / count)}, run.cpu_s
 
 
 def coverage(name, runs, effort, folder, options):
