@@ -180,6 +180,8 @@ void TestedSources::find_projected(Candidate& c) const noexcept
         c.closed_form = c.closed_form && exact;
         c.projected_sr[side] = exact ? *exact : source.middle_solid_angle_sr(shares_.from, normal);
     }
+    // Few samples of a source that the horizon cuts may all lie below it: scaling the others to the whole loses light.
+    c.closed_form = c.closed_form && !source.crosses_horizon(shares_.from, vertex_.frame.z);
 }
 
 void TestedSources::add_sun(std::size_t sun)

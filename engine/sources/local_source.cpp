@@ -214,6 +214,32 @@ bool LocalSource::in_beam(const Vec3& to_centre, double distance, int widened) c
     return -dot(aim_, to_centre) >= distance * (least - widened * rounding);
 }
 
+bool LocalSource::crosses_horizon(const Point& at, const Direction& normal) const noexcept
+{
+    const double middle = dot(normal, centre_ - at);
+    if (std::fabs(middle) > radius_m_)
+        return false;
+    if (const auto* ball = std::get_if<SphereEmitter>(&shape_))
+        return std::fabs(middle) < ball->sphere.radius;
+    if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
+        const double sine = std::sqrt(std::fmax(0, 1 - std::pow(dot(normal, facing_), 2)));
+        return std::fabs(middle) < ring->ring.outer_radius * sine;
+    }
+    const auto* flat = std::get_if<FlatEmitter>(&shape_);
+    if (flat == nullptr)
+        return true;
+    double low = middle, high = middle;
+    const auto reach = [&](const Point& corner) {
+        low = std::fmin(low, dot(normal, corner - at));
+        high = std::fmax(high, dot(normal, corner - at));
+    };
+    for (const Point& corner : flat->corners)
+        reach(corner);
+    if (flat->rectangle)
+        reach(flat->corners[1] + flat->corners[2] - flat->corners[0]);
+    return low < 0 && high > 0;
+}
+
 std::optional<double> LocalSource::projected_solid_angle_sr(const Point& at, const Direction& normal) const noexcept
 {
     if (beam_ != nullptr || !closed_form_)

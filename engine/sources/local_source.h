@@ -60,6 +60,8 @@ public:
     /// Density with which sample() finds the direction in which `hit` on this source was found.
     double density_per_sr(const Point& from, const Direction& direction, const Hit& hit) const noexcept;
     const Material& material() const noexcept { return *material_; }
+    /// Whether parts of the source lie on both sides of the plane through a point; cones by the ball that holds them.
+    bool crosses_horizon(const Point& at, const Direction& normal) const noexcept;
     const Point& centre() const noexcept { return centre_; }
     double radius_m() const noexcept { return radius_m_; } ///< of a ball about the centre that holds the source
     /// What a tree over lamps needs to know: where it is and where it sends light.
