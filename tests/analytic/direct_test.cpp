@@ -70,6 +70,18 @@ TEST(PolygonSource, ConcaveOutlinesAndRectanglesMatchLambert)
     }
 }
 
+/// A fifth of the panel lies before the sensor: Lambert's sum over that part alone.
+TEST(PolygonSource, OfALampThatTheHorizonCutsThePartInViewCounts)
+{
+    Scene scene;
+    scene.root.add_polygon({{1, -0.5, 2.5}, {1, 0.5, 2.5}, {2, 0.5, 2.5}, {2, -0.5, 2.5}},
+                           scene.add_material("lamp", light_of(luminance)), "lamp");
+    const Point at{1.2, 0.5, 0.3};
+    const std::vector<Point> seen{{1, -0.5, 2.5}, {1, 0.5, 2.5}, {1.2, 0.5, 2.5}, {1.2, -0.5, 2.5}};
+    expect_agrees(illuminance_at(Simulation(std::move(scene)), {at, {-1, 0, 0}}, 1 << 14),
+                  lambert(seen, at, {-1, 0, 0}), 0.01);
+}
+
 TEST(PolygonSource, ALampInsideAMirroredAndTurnedInstanceShinesOnItsFrontSide)
 {
     const std::vector<Point> panel{{-0.3, -0.3, 0}, {-0.3, 0.3, 0}, {0.3, 0.3, 0}, {0.3, -0.3, 0}}; // front down
