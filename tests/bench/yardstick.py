@@ -110,7 +110,7 @@ def do_row(name, asked):
     goals = list(goal_lines(row, settings))
     print("\n" + "\n".join(goals), flush=True)
     RESULTS.mkdir(exist_ok=True)
-    kept = {"row": name, "title": row.title, "program": lightwell(), "ladder": asked.ladder, "seeds": asked.seeds,
+    kept = {"row": name, "title": row.title, "program": pathlib.Path(lightwell()).name, "ladder": asked.ladder, "seeds": asked.seeds,
             "reference_noise": row.noise, "load_s": load,
             "goals": goals, "settings": settings}
     (RESULTS / f"{name}.{asked.ladder}.json").write_text(json.dumps(kept, indent=1) + "\n")
