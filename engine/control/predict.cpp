@@ -13,7 +13,7 @@ namespace {
 /// As many sensors as tell the median error to a tenth; where sensors are so many that they share ambient light, as
 /// many as still do.
 constexpr std::size_t few_sensors = 64, sharing_sensors = 2000;
-/// Where sensors share ambient light, its cost grows with about the root of their number: records fill up.
+/// Where sensors share ambient light, its cost is taken to grow with the root of their number: assumed, not measured.
 constexpr double usual_sharing_growth = 0.5;
 /// The longer side of a pilot picture, and of the smaller one that tells how ambient light grows with the pixels.
 constexpr int pilot_side = 96, smaller_side = 48;

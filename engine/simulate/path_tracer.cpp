@@ -38,12 +38,6 @@ DirectSettings behind_scattering(const DirectSettings& wanted)
     return settings;
 }
 
-/// The normal on the side that a ray comes from.
-Direction facing(const Direction& normal, const Direction& ray)
-{
-    return dot(normal, ray) <= 0 ? normal : -normal;
-}
-
 bool is_diffuse(const Lobes& lobes)
 {
     return !lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black();
@@ -415,23 +409,6 @@ PathSample PathTracer::sample(const Ray& ray, int replicate, PathRandom& random)
     return result;
 }
 
-Sight PathTracer::sight(const Ray& ray) const noexcept
-{
-    Hit hit;
-    if (!rays_.closest(ray, hit))
-        return {};
-    return {true, hit.modifier, hit.normal, hit.t};
-}
-
-Vertex PathTracer::white_vertex(const SurfacePlace& receiver) const
-{
-    Hit here;
-    here.position = receiver.position;
-    here.error_m = receiver.error_m;
-    here.normal = here.shading_normal = receiver.normal;
-    return Vertex(here, -receiver.normal, white_);
-}
-
 Spectrum PathTracer::irradiance(const SurfacePlace& receiver, int replicate, PathRandom& random) const
 {
     const Vertex vertex = white_vertex(receiver);
@@ -508,59 +485,6 @@ Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direct
         arrival.irradiance += second.irradiance;
     }
     return arrival;
-}
-
-bool PathTracer::beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const
-{
-    const Point lifted = receiver.position + receiver.normal * lift_m;
-    Hit hit;
-    if (rays_.closest({lifted, offset, 1}, hit) || !rays_.closest({lifted + offset, -receiver.normal, 2 * lift_m}, hit))
-        return false;
-    const bool front = dot(hit.normal, receiver.normal) > 0;
-    found = {hit.position, front ? hit.normal : -hit.normal, hit.error_m};
-    return true;
-}
-
-Met PathTracer::meet(const SurfacePlace& receiver, const Direction& direction) const
-{
-    const Vertex vertex = white_vertex(receiver);
-    Hit hit;
-    if (!rays_.closest({vertex.hit.leave(direction), direction, infinity}, hit))
-        return {};
-    return {hit.t, facing(hit.normal, direction)};
-}
-
-Spectrum PathTracer::light_of(const DirectLight& sources, const Vertex& vertex, const SourceKinds& kinds,
-                              PathRandom& random, double& lamp_share) const
-{
-    SourceShares shares;
-    MirrorShares mirror_shares;
-    const Gathered found = sources.gather_tested(vertex, kinds, {}, random, shares);
-    const Gathered mirrored = mirrored_.gather(vertex, {first_rays, kinds, LobeSet::specular}, random, mirror_shares);
-    lamp_share += found.lamp_share;
-    return found.irradiance + mirrored.irradiance;
-}
-
-DirectIrradiance PathTracer::direct_by(const DirectLight& sources, const SurfacePlace& receiver,
-                                       PathRandom& random) const
-{
-    const Vertex vertex = white_vertex(receiver);
-    DirectIrradiance direct;
-    if (!sources_.lamps().empty())
-        direct.lamps = light_of(sources, vertex, {true, false, false}, random, direct.lamp_share);
-    if (!sources_.suns().empty())
-        direct.suns = light_of(sources, vertex, {false, true, false}, random, direct.lamp_share);
-    return direct;
-}
-
-DirectIrradiance PathTracer::direct(const SurfacePlace& receiver, PathRandom& random) const
-{
-    return direct_by(site_direct_, receiver, random);
-}
-
-DirectIrradiance PathTracer::sensor_direct(const SurfacePlace& receiver, PathRandom& random) const
-{
-    return direct_by(direct_, receiver, random);
 }
 
 void PathTracer::receivers_along(const Ray& ray, int scatterings, PathRandom& random,

@@ -14,6 +14,12 @@ struct PathSample {
     Direction normal{0, 0, 0};    ///< on the viewer's side
 };
 
+/// The normal on the side that a ray comes from.
+inline Direction facing(const Direction& normal, const Direction& ray) noexcept
+{
+    return dot(normal, ray) <= 0 ? normal : -normal;
+}
+
 /// What a ray meets first.
 struct Sight {
     bool met_surface = false;
