@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lightwell {
@@ -106,21 +108,49 @@ SensorGrid line_of_sensors(int count)
     return grid;
 }
 
+/// Predicted over reached, for seconds and for errors.
+struct Ratios {
+    double seconds = 0, error = 0;
+};
+
+/// The median of three predictions, each with the run that it predicts: a machine at work on other things disturbs
+/// one of them, and the time that a pilot run takes decides how far the next one goes.
+template <class Measure>
+Ratios median_of_three(const Measure& measure)
+{
+    std::array<double, 3> seconds, errors;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Ratios ratios = measure();
+        seconds[i] = ratios.seconds;
+        errors[i] = ratios.error;
+    }
+    std::sort(seconds.begin(), seconds.end());
+    std::sort(errors.begin(), errors.end());
+    return {seconds[1], errors[1]};
+}
+
+void expect_within_a_factor_of_two(const Ratios& ratios)
+{
+    for (const double ratio : {ratios.seconds, ratios.error}) {
+        EXPECT_GT(ratio, 0.5);
+        EXPECT_LT(ratio, 2);
+    }
+}
+
 TEST(Predict, CostAndErrorOfAMapAreRightWithinAFactorOfTwo)
 {
     const Simulation simulation(lamp_room());
     const SensorGrid grid = line_of_sensors(200);
     GridSettings settings;
-    settings.accuracy = 0.01;
+    settings.accuracy = 0.005;
     settings.threads = 1;
-    const Prediction expected = predict(simulation, grid, settings, 0.3);
-    const double start = process_cpu_seconds();
-    const GridResult result = simulation.illuminance(grid, settings);
-    const double reached = process_cpu_seconds() - start;
-    EXPECT_GT(expected.cpu_seconds, 0.5 * reached);
-    EXPECT_LT(expected.cpu_seconds, 2 * reached);
-    EXPECT_GT(expected.error, 0.5 * result.median_relative_error);
-    EXPECT_LT(expected.error, 2 * result.median_relative_error);
+    expect_within_a_factor_of_two(median_of_three([&] {
+        const Prediction expected = predict(simulation, grid, settings, 0.5);
+        const double start = process_cpu_seconds();
+        const GridResult result = simulation.illuminance(grid, settings);
+        return Ratios{expected.cpu_seconds / (process_cpu_seconds() - start),
+                      expected.error / result.median_relative_error};
+    }));
 }
 
 TEST(Predict, CostOfAPictureIsRightWithinAFactorOfTwoAndARegionCostsLess)
@@ -130,19 +160,19 @@ TEST(Predict, CostOfAPictureIsRightWithinAFactorOfTwoAndARegionCostsLess)
     view.position = {-2, 0, 0};
     view.direction = {1, 0, 0};
     PictureSettings settings;
-    settings.width = settings.height = 144;
+    settings.width = settings.height = 288;
     settings.accuracy = 0.1;
     settings.threads = 1;
-    const Prediction expected = predict(simulation, view, settings, 0.2);
-    const double start = process_cpu_seconds();
-    const PictureResult result = simulation.render(view, settings);
-    const double reached = process_cpu_seconds() - start;
-    EXPECT_GT(expected.cpu_seconds, 0.5 * reached);
-    EXPECT_LT(expected.cpu_seconds, 2 * reached);
-    EXPECT_GT(expected.error, 0.5 * result.median_relative_error);
-    EXPECT_LT(expected.error, 2 * result.median_relative_error);
-    settings.region = {50, 50, 40, 40};
-    EXPECT_LT(predict(simulation, view, settings, 0.2).cpu_seconds, expected.cpu_seconds);
+    expect_within_a_factor_of_two(median_of_three([&] {
+        const Prediction expected = predict(simulation, view, settings, 0.2);
+        const double start = process_cpu_seconds();
+        const PictureResult result = simulation.render(view, settings);
+        return Ratios{expected.cpu_seconds / (process_cpu_seconds() - start),
+                      expected.error / result.median_relative_error};
+    }));
+    const double whole = predict(simulation, view, settings, 0.2).cpu_seconds;
+    settings.region = {100, 100, 60, 60};
+    EXPECT_LT(predict(simulation, view, settings, 0.2).cpu_seconds, 0.8 * whole);
 }
 
 TEST(Predict, TheSamplesThatWereGivenAreTaken)
