@@ -24,6 +24,13 @@ std::optional<BsdfSample> mirror_or_pass(Direction to_viewer, double choice, Spe
     return BsdfSample{passed, transmittance / (1 - reflected_share), 0, true, straight};
 }
 
+double mirrored_choice_of(const ThinGlass& glass, Direction to_viewer)
+{
+    const double reflected = photopic(glass.reflectance(to_viewer.z));
+    const double passing = photopic(glass.transmittance(to_viewer.z));
+    return reflected + passing > 0 ? reflected / (reflected + passing) : 0;
+}
+
 std::optional<BsdfSample> sample_of(const DielectricBoundary& boundary, Direction to_viewer, double choice)
 {
     const double reflectance = boundary.reflectance(to_viewer.z);
@@ -35,10 +42,7 @@ std::optional<BsdfSample> sample_of(const DielectricBoundary& boundary, Directio
 std::optional<BsdfSample> sample_of(const ThinGlass& glass, Direction to_viewer, double choice)
 {
     const Spectrum r = glass.reflectance(to_viewer.z), t = glass.transmittance(to_viewer.z);
-    const double reflected = photopic(r), passing = photopic(t);
-    if (!(reflected + passing > 0))
-        return {};
-    return mirror_or_pass(to_viewer, choice, r, t, reflected / (reflected + passing), -to_viewer, true);
+    return mirror_or_pass(to_viewer, choice, r, t, mirrored_choice_of(glass, to_viewer), -to_viewer, true);
 }
 
 std::optional<BsdfSample> sample_of(const Mirror& mirror, Direction to_viewer)
@@ -108,6 +112,16 @@ std::optional<BsdfSample> Bsdf::sample(Direction to_viewer, double choice, UnitS
                                  [&](const Mirror& m) -> Sample { return sample_of(m, to_viewer); },
                                  [&](const auto& m) -> Sample { return sample_of(m, to_viewer, choice); }},
                       model_);
+}
+
+double Bsdf::mirrored_choice(Direction to_viewer) const noexcept
+{
+    if (!(to_viewer.z > 0))
+        return 0;
+    if (const auto* glass = std::get_if<ThinGlass>(&model_))
+        return mirrored_choice_of(*glass, to_viewer);
+    const auto* boundary = std::get_if<DielectricBoundary>(&model_);
+    return boundary != nullptr ? boundary->reflectance(to_viewer.z) : 0;
 }
 
 Spectrum Bsdf::straight_transmittance(Direction to_viewer) const noexcept

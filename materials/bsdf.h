@@ -29,6 +29,8 @@ public:
     /// @return        nothing where all light is absorbed
     std::optional<BsdfSample> sample(Direction to_viewer, double choice, UnitSquare u,
                                      LobeSet set = LobeSet::all) const noexcept;
+    /// Where light is either mirrored or passes, and nothing else: sample() mirrors for a `choice` below this. Else 0.
+    double mirrored_choice(Direction to_viewer) const noexcept;
     /// Share of a straight ray that passes without bending or scattering (what a shadow ray keeps).
     Spectrum straight_transmittance(Direction to_viewer) const noexcept;
     const Lobes& lobes() const noexcept { return lobes_; }

@@ -16,6 +16,8 @@ constexpr double least_multiple = 0.5, most_multiple = 5;
 constexpr double most_stretch = 3;
 /// ... and in footprints.
 constexpr double least_footprints = 6;
+/// How much farther than its reach a record still answers where no other does.
+constexpr double widening = 3;
 /// Predicted change within the reach, relative.
 constexpr double most_change = 0.5;
 /// Keep random numbers of rays and of shadow rays apart.
@@ -168,9 +170,13 @@ void AmbientCache::insert(std::vector<AmbientRecord>&& records)
 {
     for (AmbientRecord& record : records) {
         sites_.push_back(record.site);
+        wide_.push_back(record.site);
+        for (double& reach : wide_.back().reach_m)
+            reach *= widening;
         records_.push_back(std::move(record));
     }
     tree_.build(sites_);
+    wide_tree_.build(wide_);
 }
 
 void AmbientCache::add(std::vector<AmbientRecord> records)
@@ -198,18 +204,21 @@ std::size_t AmbientCache::grow(const std::vector<AmbientCandidate>& candidates, 
     return chosen.size();
 }
 
-bool AmbientCache::irradiance(const Point& at, const Direction& normal, CachedAmbient& found) const noexcept
+bool AmbientCache::mean_around(const SiteTree& tree, const std::vector<AmbientSite>& sites, double widened,
+                               const Point& at, const Direction& normal, CachedAmbient& found) const noexcept
 {
     double total = 0;
     Spectrum sum;
     found.deviation.fill(0);
-    tree_.near(at, [&](std::uint32_t i) {
-        const double distance = site_distance(sites_[i], at, normal);
+    tree.near(at, [&](std::uint32_t i) {
+        const double distance = site_distance(sites[i], at, normal);
         if (!(distance < 1))
             return;
         const AmbientRecord& record = records_[i];
         const double weight = (1 - distance) * (1 - distance);
-        const Vec3 way = at - record.site.position, turn = cross(record.site.normal, normal);
+        // Beyond the reach the gradient says no more than at its edge.
+        const Vec3 way = (at - record.site.position) / std::fmax(1, widened * distance);
+        const Vec3 turn = cross(record.site.normal, normal);
         const IrradianceGradient& g = record.gradient;
         Spectrum here = record.irradiance;
         const auto step = [&](int c) { return dot(way, g.translation[c]) + dot(turn, g.rotation[c]); };
@@ -225,6 +234,12 @@ bool AmbientCache::irradiance(const Point& at, const Direction& normal, CachedAm
     for (double& d : found.deviation)
         d /= total;
     return true;
+}
+
+bool AmbientCache::irradiance(const Point& at, const Direction& normal, CachedAmbient& found) const noexcept
+{
+    return mean_around(tree_, sites_, 1, at, normal, found) ||
+           mean_around(wide_tree_, wide_, widening, at, normal, found);
 }
 
 } // namespace lightwell

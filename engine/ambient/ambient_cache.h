@@ -55,13 +55,16 @@ public:
                      const CacheSettings& settings);
     /// Adds records that were made before, by an earlier run or another process, as they are.
     void add(std::vector<AmbientRecord> records);
-    /// @return false where no record answers
+    /// Where no record reaches, as in the last pixels before a corner, those nearby answer if nothing stands between.
+    /// @return false where none does
     bool irradiance(const Point& at, const Direction& normal, CachedAmbient& found) const noexcept;
 
     const std::vector<AmbientRecord>& records() const noexcept { return records_; }
 
 private:
     bool covers(const SurfacePlace& place) const noexcept;
+    bool mean_around(const SiteTree& tree, const std::vector<AmbientSite>& sites, double widened, const Point& at,
+                     const Direction& normal, CachedAmbient& found) const noexcept;
     /// @param key  of its random numbers: its place in the order of records, which no shift or scale changes
     AmbientRecord trace(const AmbientCandidate& candidate, std::uint64_t key, const HemisphereRays& rays, double size_m,
                         const CacheSettings& settings) const;
@@ -71,7 +74,8 @@ private:
     const DeepField& deep_;
     std::vector<AmbientRecord> records_;
     std::vector<AmbientSite> sites_; ///< of the records, close together for the search
-    SiteTree tree_;
+    std::vector<AmbientSite> wide_;  ///< the same with a longer reach
+    SiteTree tree_, wide_tree_;
 };
 
 } // namespace lightwell

@@ -65,7 +65,8 @@ void put(std::vector<double>& to, const AmbientSite& site)
     put(to, site.normal);
     put(to, site.axis);
     to.insert(to.end(), {site.reach_m[0], site.reach_m[1], site.harmonic_m, site.least_horizon_m});
-    to.insert(to.end(), site.horizon_m.begin(), site.horizon_m.end());
+    for (const Horizon& h : site.horizon)
+        to.insert(to.end(), {h.distance_m, h.into_x, h.into_y, h.met_m});
 }
 
 AmbientSite take_site(Numbers& from)
@@ -82,9 +83,12 @@ AmbientSite take_site(Numbers& from)
     from.demand(site.harmonic_m > 0);
     site.least_horizon_m = from.any(); // infinite where nothing stands around
     from.demand(site.least_horizon_m >= 0);
-    for (float& horizon : site.horizon_m) {
-        horizon = static_cast<float>(from.any());
-        from.demand(horizon >= 0);
+    for (Horizon& h : site.horizon) {
+        h.distance_m = static_cast<float>(from.any());
+        h.into_x = static_cast<float>(from.finite());
+        h.into_y = static_cast<float>(from.finite());
+        h.met_m = static_cast<float>(from.any());
+        from.demand(h.distance_m >= 0 && h.met_m >= 0);
     }
     return site;
 }

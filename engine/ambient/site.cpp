@@ -28,26 +28,52 @@ std::size_t horizon_sector(const Frame& frame, const Vec3& way) noexcept
 }
 
 /// Whether something that stands on the surface may lie between the site and a place this far away. Rays go out at a
-/// quarter and at three quarters of each sector. A straight wall is met nearer by the next ray towards its foot, which
-/// is in the sector of the place or in the one nearest to it, than at the place's own azimuth; next to the foot it is
-/// met farther away by the cosine of half the angle between two rays.
+/// quarter and at three quarters of each sector; what they met stands on a line, whose course beyond them is known
+/// from the normal there. The ray nearest to the place is in its own sector or in the one beside it.
 bool beyond_horizon(const AmbientSite& site, const Vec3& way, double flat_m) noexcept
 {
-    constexpr double next_to_foot = 0.995; // cosine of 5.625 degrees
-    if (!(flat_m > next_to_foot * site.least_horizon_m))
+    constexpr double nearly = 0.999; // of the distance: rounding of what was kept
+    if (!(flat_m > nearly * site.least_horizon_m))
         return false;
     const Frame frame = frame_about(site.normal);
+    const double x = dot(way, frame.x), y = dot(way, frame.y);
     const std::size_t sector = horizon_sector(frame, way);
     const bool upper_half = std::fmod(sector_turn(frame, way), 1.0) > 0.5;
     const std::size_t beside = (sector + (upper_half ? 1 : horizon_sectors - 1)) % horizon_sectors;
-    const auto nearest = static_cast<double>(std::min(site.horizon_m[sector], site.horizon_m[beside]));
-    return flat_m > next_to_foot * nearest;
+    const auto behind = [&](const Horizon& h) {
+        return x * double{h.into_x} + y * double{h.into_y} > nearly * double{h.distance_m};
+    };
+    return behind(site.horizon[sector]) || behind(site.horizon[beside]);
 }
 
 double length_across(const Vec3& way, const Direction& normal) noexcept
 {
     const double off = dot(way, normal);
     return std::sqrt(std::fmax(0, dot(way, way) - off * off));
+}
+
+/// What was met is taken as a plane that goes down to the site's surface; what hangs over it, as a wall square to the
+/// ray.
+Horizon foot_of(const Frame& frame, const Vec3& offset, const Direction& normal) noexcept
+{
+    constexpr double least_upright = 0.5; // of the normal's length, level
+    const double up = dot(normal, frame.z);
+    Vec3 into{-dot(normal, frame.x), -dot(normal, frame.y), 0};
+    const double upright = length(into);
+    Horizon foot;
+    double distance_m = 0;
+    if (upright > least_upright && up > -least_upright) {
+        into = into / upright;
+        distance_m = -dot(offset, normal) / upright;
+    } else {
+        into = {dot(offset, frame.x), dot(offset, frame.y), 0};
+        distance_m = length(into);
+        into = into / distance_m;
+    }
+    foot.distance_m = static_cast<float>(std::fmax(0, distance_m));
+    foot.into_x = static_cast<float>(into.x);
+    foot.into_y = static_cast<float>(into.y);
+    return foot;
 }
 
 } // namespace
@@ -80,9 +106,14 @@ void add_horizon(AmbientSite& site, const Direction& direction, const Met& met) 
     if (!std::isfinite(met.distance_m) || dot(direction, site.normal) > steepest ||
         dot(met.normal, site.normal) > least_cosine)
         return;
-    float& horizon = site.horizon_m[horizon_sector(frame_about(site.normal), direction)];
-    horizon = std::min(horizon, static_cast<float>(met.distance_m * length_across(direction, site.normal)));
-    site.least_horizon_m = std::min(site.least_horizon_m, static_cast<double>(horizon));
+    const Frame frame = frame_about(site.normal);
+    Horizon& horizon = site.horizon[horizon_sector(frame, direction)];
+    const double met_m = met.distance_m * length_across(direction, site.normal);
+    if (met_m >= double{horizon.met_m})
+        return;
+    horizon = foot_of(frame, direction * met.distance_m, met.normal);
+    horizon.met_m = static_cast<float>(met_m);
+    site.least_horizon_m = std::min(site.least_horizon_m, static_cast<double>(horizon.distance_m));
 }
 
 } // namespace lightwell

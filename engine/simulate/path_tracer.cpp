@@ -9,6 +9,8 @@ namespace {
 
 /// Shadow rays to lamps and to the sky at the first vertex, where their noise is seen directly, and at later ones.
 constexpr int first_rays = 4, later_rays = 1;
+/// Panes of glass on the way from the eye at which noise would be seen if one of the two ways were left to chance.
+constexpr int eye_splits = 2;
 /// Paths are never ended before this many scatterings.
 constexpr int sure_scatterings = 3;
 /// Even a path that loses nothing ends some day.
@@ -70,6 +72,7 @@ struct PathTracer::Walk {
     bool met_lamp = false;               ///< of an arrival: with nothing in between
     bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
     int replicate = 0;
+    int splits_left = 0; ///< at how many panes both the mirrored and the passing light are still followed
     std::vector<Dependence>* dependences = nullptr; ///< of an arrival: what comes from the deep field is not known yet
 
     void add(Spectrum light, double weight = 1)
@@ -288,27 +291,26 @@ bool PathTracer::survives(Walk& walk, PathRandom& random) const
     return true;
 }
 
-bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const
+/// @return false where the light ends
+bool PathTracer::follow(Walk& walk, const Vertex& vertex, const BsdfSample& scattered, LobeSet set) const
 {
-    const double choice = random.one();
-    const std::optional<BsdfSample> scattered = vertex.bsdf.sample(vertex.to_viewer, choice, random.pair(), set);
-    const Direction local = scattered ? scattered->to_light : Direction{};
-    const Direction world = scattered && scattered->straight ? walk.ray.direction : vertex.frame.to_world(local);
-    if (!scattered || scattered->weight.is_black() || !vertex.same_side(world, local))
+    const Direction local = scattered.to_light;
+    const Direction world = scattered.straight ? walk.ray.direction : vertex.frame.to_world(local);
+    if (scattered.weight.is_black() || !vertex.same_side(world, local))
         return false;
     if (!walk.at_first)
-        walk.arriving_throughput *= scattered->weight;
-    else if (!scattered->delta && local.z > 0 && set == LobeSet::all)
-        walk.arriving_throughput = Spectrum::grey(local.z / scattered->density_per_sr);
+        walk.arriving_throughput *= scattered.weight;
+    else if (!scattered.delta && local.z > 0 && set == LobeSet::all)
+        walk.arriving_throughput = Spectrum::grey(local.z / scattered.density_per_sr);
     else // its irradiance is known already, or cannot be told by this ray
         walk.arriving_throughput = {};
-    walk.throughput *= scattered->weight;
+    walk.throughput *= scattered.weight;
     walk.ray = {vertex.hit.leave(world), normalized(world), infinity};
-    if (walk.surfaces_only && !scattered->straight)
+    if (walk.surfaces_only && !scattered.straight)
         return false;
-    if (!scattered->straight) { // a straight passage leaves the weights of the last scattering as they are
+    if (!scattered.straight) { // a straight passage leaves the weights of the last scattering as they are
         walk.straight_from_receiver = false;
-        if (scattered->delta) {
+        if (scattered.delta) {
             walk.chain.reflect(virtual_sources_.mirrors().mirror_at(vertex.hit));
             if (!walk.chain.mirrored())
                 walk.sources = Walk::Sources::in_full;
@@ -316,7 +318,7 @@ bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRand
             walk.shares = walk.here;
             walk.mirror_shares = walk.mirror_here;
             walk.sources = Walk::Sources::weighted;
-            walk.scattered_density = scattered->density_per_sr;
+            walk.scattered_density = scattered.density_per_sr;
             walk.chain.begin();
             walk.way_m = 0;
             walk.bent = true;
@@ -324,7 +326,36 @@ bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRand
     }
     ++walk.scatterings;
     walk.at_first = false;
-    return survives(walk, random);
+    return true;
+}
+
+/// Follows the mirrored light to its end; the walk is left with what passes.
+void PathTracer::split(Walk& walk, const Vertex& vertex, double mirrored_choice, PathRandom& random) const
+{
+    --walk.splits_left;
+    Walk other = walk;
+    other.radiance = other.irradiance = {};
+    walk.throughput = walk.throughput * (1 - mirrored_choice);
+    other.throughput = other.throughput * mirrored_choice;
+    const std::optional<BsdfSample> sample = vertex.bsdf.sample(vertex.to_viewer, 0, {});
+    if (sample && follow(other, vertex, *sample, LobeSet::all))
+        run(other, random);
+    walk.radiance += other.radiance;
+    walk.irradiance += other.irradiance;
+}
+
+bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const
+{
+    double choice = random.one();
+    if (walk.splits_left > 0 && !walk.bent) {
+        const double mirrored_choice = vertex.bsdf.mirrored_choice(vertex.to_viewer);
+        if (mirrored_choice > 0 && mirrored_choice < 1) {
+            split(walk, vertex, mirrored_choice, random);
+            choice = mirrored_choice; // passes
+        }
+    }
+    const std::optional<BsdfSample> scattered = vertex.bsdf.sample(vertex.to_viewer, choice, random.pair(), set);
+    return scattered && follow(walk, vertex, *scattered, set) && survives(walk, random);
 }
 
 const Material* PathTracer::seen_material(const Walk& walk, const Hit& hit) const
@@ -393,6 +424,7 @@ PathSample PathTracer::sample(const Ray& ray, int replicate, PathRandom& random)
     Walk walk;
     walk.ray = ray;
     walk.replicate = replicate;
+    walk.splits_left = eye_splits;
     run(walk, random);
     PathSample result;
     result.radiance = walk.radiance;

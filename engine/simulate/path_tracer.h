@@ -67,6 +67,8 @@ private:
     bool answered(const Walk& walk, bool is_sun, int source) const;
     void gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here, PathRandom& random) const;
     void add_direct(Walk& walk, const Gathered& direct, double share) const;
+    bool follow(Walk& walk, const Vertex& vertex, const BsdfSample& scattered, LobeSet set) const;
+    void split(Walk& walk, const Vertex& vertex, double mirrored_choice, PathRandom& random) const;
     bool scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const;
     bool survives(Walk& walk, PathRandom& random) const;
     void meet_distant(Walk& walk) const;

@@ -1,6 +1,7 @@
 #include "engine/simulate/pixels.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace lightwell {
 
@@ -21,9 +22,15 @@ bool close(const double* values, const double* errors, std::size_t count, double
 {
     constexpr double usual_span = 2.5; // of a few values of equal error, in standard errors
     const auto [low, high] = std::minmax_element(values, values + count);
-    const double noise = *std::max_element(errors, errors + count);
+    // The least: where something thin passes through one of them, its spread is no noise.
+    const double noise = *std::min_element(errors, errors + count);
     return *high - *low <= std::max(tolerance * 0.5 * (*high + *low), usual_span * noise);
 }
+
+/// Paths through a pixel that is interpolated, and how far their mean may lie off in standard errors: what is thinner
+/// than a pixel and falls between its neighbours shows in them.
+constexpr int probe_paths = 4;
+constexpr double most_off = 3;
 
 } // namespace
 
@@ -35,17 +42,21 @@ bool same_surface(const Sight& a, const Sight& b)
                               std::fabs(a.distance_m - b.distance_m) <= same_distance * a.distance_m);
 }
 
+PathRandom PixelTask::random_of(int x, int y, int replicate, std::uint32_t path) const noexcept
+{
+    const auto pixel =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
+    return PathRandom(mix_bits(seed, static_cast<std::uint64_t>(replicate)), pixel, path);
+}
+
 PixelResult PixelTask::measure(int x, int y, int samples) const
 {
     PixelResult result;
-    const auto pixel =
-        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
     const auto each = static_cast<std::uint32_t>(samples / replicates);
     for (int r = 0; r < replicates; ++r) {
         Spectrum radiance, irradiance;
         for (std::uint32_t i = 0; i < each; ++i)
-            add_path(result, x, y, r, PathRandom(mix_bits(seed, static_cast<std::uint64_t>(r)), pixel, i), radiance,
-                     irradiance);
+            add_path(result, x, y, r, random_of(x, y, r, i), radiance, irradiance);
         radiance = radiance / each;
         for (int c = 0; c < 3; ++c)
             result.channel[c].add(radiance[c]);
@@ -71,6 +82,15 @@ void PixelTask::add_path(PixelResult& result, int x, int y, int replicate, PathR
     result.depth_sum += path.distance_m;
     result.normal_sum += path.normal;
     ++result.met;
+}
+
+double PixelTask::probe(int x, int y, int paths) const
+{
+    PixelResult ignored;
+    Spectrum radiance, irradiance;
+    for (int i = 0; i < paths; ++i)
+        add_path(ignored, x, y, 0, random_of(x, y, 0, static_cast<std::uint32_t>(i)), radiance, irradiance);
+    return luminance_of(radiance / paths).value;
 }
 
 Sight PixelTask::sight(int x, int y) const noexcept
@@ -143,6 +163,11 @@ bool PixelField::interpolated(int x, int y, PixelValue& value)
     }
     if (!close(luminance, luminance_error, count, tolerance_) ||
         !close(illuminance, illuminance_error, count, tolerance_))
+        return false;
+    const double mean = std::accumulate(luminance, luminance + count, 0.0) / static_cast<double>(count);
+    const double path_noise = *std::min_element(luminance_error, luminance_error + count) * std::sqrt(samples_);
+    const double allowed = std::max(tolerance_ * mean, most_off * path_noise / std::sqrt(probe_paths));
+    if (std::fabs(task_.probe(x, y, probe_paths) - mean) > allowed)
         return false;
     value.fill(0);
     for (std::size_t i = 0; i < count; ++i)

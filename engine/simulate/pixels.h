@@ -36,19 +36,23 @@ struct PixelTask {
     std::uint64_t seed;
 
     PixelResult measure(int x, int y, int samples) const;
+    /// Luminance of a few of its paths, cd/m^2.
+    double probe(int x, int y, int paths) const;
     /// What its middle shows.
     Sight sight(int x, int y) const noexcept;
 
 private:
+    PathRandom random_of(int x, int y, int replicate, std::uint32_t path) const noexcept;
     void add_path(PixelResult& result, int x, int y, int replicate, PathRandom random, Spectrum& radiance,
                   Spectrum& irradiance) const;
 };
 
 /// The pixels of a part of a picture: every other one in both directions by its own paths, those between by
-/// interpolation where the neighbours agree and its middle shows the same surface, else by their own paths too.
+/// interpolation where the neighbours agree, its middle shows the same surface and a few paths bring nothing else,
+/// else by their own paths too.
 /// A pixel has the same value whatever part it is asked from.
 /// Error: biased by interpolation, less than the tolerance where luminance is smooth
-/// Source  Ward 1994, Section 3.1 (image plane sampling), with a ray to each pixel so that nothing thin is lost
+/// Source  Ward 1994, Section 3.1 (image plane sampling), with a few rays to each pixel so that nothing thin is lost
 class PixelField {
 public:
     /// @param tolerance  relative difference of luminance and of illuminance that neighbours may have; 0: no

@@ -119,7 +119,7 @@ TEST(AmbientSite, AStraightWallHidesAllThatLiesBehindIt)
             const double away = to_wall(azimuth);
             if (away > 0) {
                 const Direction low = normalized({std::cos(azimuth), std::sin(azimuth), 1e-6});
-                add_horizon(site, low, wall_at(away, low));
+                add_horizon(site, low, {away, {-std::cos(turn), -std::sin(turn), 0}});
             }
         }
         int near_side = 0, asked = 0;
@@ -129,11 +129,21 @@ TEST(AmbientSite, AStraightWallHidesAllThatLiesBehindIt)
                 continue;
             const Vec3 way{std::cos(azimuth), std::sin(azimuth), 0};
             EXPECT_EQ(distance_to(site, way * (wall * 1.001)), infinity) << turn << ' ' << i;
-            near_side += distance_to(site, way * (wall * 0.8)) < 1 ? 1 : 0;
+            near_side += distance_to(site, way * (wall * 0.99)) < 1 ? 1 : 0;
             ++asked;
         }
-        EXPECT_GT(near_side, asked / 2) << "this side of the wall is still served";
+        EXPECT_EQ(near_side, asked) << "this side of the wall is served up to its foot";
     }
+}
+
+/// A slope that rises away from the site, met half a metre up: it begins where its plane meets the floor.
+TEST(AmbientSite, ASlopeHidesWhatLiesBeyondItsFoot)
+{
+    AmbientSite site = flat_site(4, 4);
+    const Direction low = normalized({1, 0, 0.25});
+    add_horizon(site, low, {2 / low.x, normalized({-1, 0, 0.5})}); // 2 m away, half a metre up
+    EXPECT_NEAR(distance_to(site, {1.74, 0, 0}), 0.435, 1e-6);
+    EXPECT_EQ(distance_to(site, {1.76, 0, 0}), infinity);
 }
 
 TEST(AmbientSite, TheNearestObstacleOfASectorCounts)
