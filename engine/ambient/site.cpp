@@ -16,15 +16,20 @@ constexpr double most_offset = 0.01;
 /// ... and, for places close to the site, as a share of the reach.
 constexpr double rounding = 1e-6;
 
-/// Azimuth about the normal in sectors, counted from -frame_about(normal).x.
-double sector_turn(const Frame& frame, const Vec3& way) noexcept
+/// Where a level direction lies among the sectors: rises as its azimuth does, by a quarter of the sectors in each
+/// quadrant, without the cost of an angle. Sectors next to the axes are a little narrower than those between.
+double sector_turn(double x, double y) noexcept
 {
-    return (std::atan2(dot(way, frame.y), dot(way, frame.x)) / (2 * pi) + 0.5) * horizon_sectors;
+    const double sum = std::fabs(x) + std::fabs(y);
+    if (!(sum > 0))
+        return 0;
+    const double quadrants = x > 0 ? (y >= 0 ? y : 4 * sum + y) / sum : (2 * sum - y) / sum;
+    return quadrants * (horizon_sectors / 4);
 }
 
-std::size_t horizon_sector(const Frame& frame, const Vec3& way) noexcept
+std::size_t sector_at(double turn) noexcept
 {
-    return static_cast<std::size_t>(std::min(horizon_sectors - 1, static_cast<int>(sector_turn(frame, way))));
+    return static_cast<std::size_t>(std::min(horizon_sectors - 1, static_cast<int>(turn)));
 }
 
 /// Whether something that stands on the surface may lie between the site and a place this far away. Rays go out at a
@@ -37,8 +42,9 @@ bool beyond_horizon(const AmbientSite& site, const Vec3& way, double flat_m) noe
         return false;
     const Frame frame = frame_about(site.normal);
     const double x = dot(way, frame.x), y = dot(way, frame.y);
-    const std::size_t sector = horizon_sector(frame, way);
-    const bool upper_half = std::fmod(sector_turn(frame, way), 1.0) > 0.5;
+    const double turn = sector_turn(x, y);
+    const std::size_t sector = sector_at(turn);
+    const bool upper_half = turn - static_cast<double>(sector) > 0.5;
     const std::size_t beside = (sector + (upper_half ? 1 : horizon_sectors - 1)) % horizon_sectors;
     const auto behind = [&](const Horizon& h) {
         return x * double{h.into_x} + y * double{h.into_y} > nearly * double{h.distance_m};
@@ -107,7 +113,7 @@ void add_horizon(AmbientSite& site, const Direction& direction, const Met& met) 
         dot(met.normal, site.normal) > least_cosine)
         return;
     const Frame frame = frame_about(site.normal);
-    Horizon& horizon = site.horizon[horizon_sector(frame, direction)];
+    Horizon& horizon = site.horizon[sector_at(sector_turn(dot(direction, frame.x), dot(direction, frame.y)))];
     const double met_m = met.distance_m * length_across(direction, site.normal);
     if (met_m >= double{horizon.met_m})
         return;

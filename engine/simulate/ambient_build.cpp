@@ -14,6 +14,9 @@ constexpr int walk_scatterings = 3;
 /// A kept deep field serves another view when it answers at this share of what that view's paths meet.
 constexpr double answered_share = 0.9;
 
+/// At this accuracy: 64 rays a site, 512 a record, records 0.1 of the harmonic mean distance apart.
+constexpr double usual_accuracy = 0.05;
+
 int power_of_two(double x, int least, int most)
 {
     const int rounded = 1 << std::clamp(static_cast<int>(std::lround(std::log2(std::max(x, 1.0)))), 0, 20);
@@ -22,19 +25,22 @@ int power_of_two(double x, int least, int most)
 
 } // namespace
 
+void AmbientEffort::set_deep(double deep_accuracy)
+{
+    deep.rays = power_of_two(24 * usual_accuracy / deep_accuracy, 64, 1024);
+    deep.reach_share = std::clamp(0.6 * std::pow(deep_accuracy / usual_accuracy, 0.25), 0.25, 0.6);
+    deep_paths = static_cast<std::size_t>(power_of_two(1024 * usual_accuracy / deep_accuracy, 512, 8192));
+}
+
 AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std::uint64_t seed, int threads)
 {
     AmbientEffort effort;
     effort.accuracy = accuracy;
-    // At 5 %: 64 rays a site, 512 a record, records 0.1 of the harmonic mean distance apart.
-    constexpr double usual = 0.05;
-    effort.deep.rays = power_of_two(24 * usual / accuracy, 64, 1024);
-    effort.deep.reach_share = std::clamp(0.6 * std::pow(accuracy / usual, 0.25), 0.25, 0.6);
+    effort.set_deep(accuracy);
     effort.deep.seed = effort.cache.seed = seed;
     effort.deep.threads = effort.cache.threads = threads;
-    effort.deep_paths = static_cast<std::size_t>(power_of_two(1024 * usual / accuracy, 512, 8192));
     effort.cache.accuracy = std::clamp(2 * accuracy, 0.01, 0.3);
-    effort.cache.rays = power_of_two(512 * usual / accuracy, 128, 8192);
+    effort.cache.rays = power_of_two(512 * usual_accuracy / accuracy, 128, 8192);
     effort.cache.gradients = techniques.gradients;
     effort.cache.hessian = techniques.hessian;
     return effort;

@@ -11,6 +11,9 @@ struct AmbientEffort {
     CacheSettings cache;
     std::size_t deep_paths = 1024; ///< along which the deep field's sites are looked for
     double accuracy = 0;           ///< that all of this follows from
+
+    /// The deep field as fine as another accuracy would have it.
+    void set_deep(double deep_accuracy);
 };
 AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std::uint64_t seed, int threads);
 
@@ -36,6 +39,12 @@ public:
     /// A ray that starts at the i-th of `count` pixels or sensors; false: there is none.
     using Start = std::function<bool(std::size_t i, PathRandom& random, Ray& ray)>;
     void build_deep(std::size_t count, const Start& start);
+    /// The same with a deep field as fine as another accuracy would have it, in place of the one before.
+    void rebuild_deep(double deep_accuracy, std::size_t count, const Start& start)
+    {
+        effort_.set_deep(deep_accuracy);
+        build_deep(count, start);
+    }
     /// One generation of records at these places. @return records added
     std::size_t grow(const std::vector<AmbientCandidate>& candidates);
 

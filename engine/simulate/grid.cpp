@@ -12,7 +12,7 @@ namespace {
 /// A sensor that lies in a surface is lifted off it by this share of the scene's size.
 constexpr double sensor_lift = 1e-9;
 constexpr std::size_t pilot_sensors = 64;
-constexpr int pilot_paths = 16 * pilot_samples;
+constexpr int pilot_paths = 8 * pilot_samples;
 /// From this number on, sensors share records of ambient light.
 constexpr std::size_t many_sensors = 2000;
 /// Sensors checked against plain path tracing, and paths at each.
@@ -37,12 +37,13 @@ struct SensorTask {
     const DeepField* deep; ///< null: plain paths, or records of the cache
 
     /// Illuminance of a sensor, lx, by replicate.
-    std::array<double, replicates> operator()(std::size_t i, int samples) const
+    /// @param same_paths  all replicates follow the same paths, so that only their ambient light differs
+    std::array<double, replicates> operator()(std::size_t i, int samples, bool same_paths) const
     {
         std::array<double, replicates> found{};
         const auto each = static_cast<std::uint32_t>(samples / replicates);
         for (int r = 0; r < replicates; ++r) {
-            const std::uint64_t key = mix_bits(seed, static_cast<std::uint64_t>(r));
+            const std::uint64_t key = mix_bits(seed, static_cast<std::uint64_t>(same_paths ? 0 : r));
             found[static_cast<std::size_t>(r)] =
                 illuminance_of(deep != nullptr ? by_hemisphere(i, r, key, each) : by_paths(i, r, key, each)).value;
         }
@@ -99,14 +100,15 @@ struct Some {
     std::vector<double> values, errors;
     double mean_error = 0; ///< of the mean over the sensors, which share their ambient light
 };
-Some measure_some(const SensorTask& task, int samples, std::size_t step, int threads, Teller& teller)
+Some measure_some(const SensorTask& task, int samples, std::size_t step, int threads, Teller& teller,
+                  bool same_paths = false)
 {
     const std::size_t count = (task.places.size() + step - 1) / step;
     Some some{std::vector<double>(count), std::vector<double>(count)};
     std::vector<std::array<double, replicates>> found(count);
     parallel_for(count, threads, [&](std::size_t k) {
         teller.check();
-        found[k] = task(k * step, samples);
+        found[k] = task(k * step, samples, same_paths);
         const RunningStatistics statistics = statistics_of(found[k]);
         some.values[k] = statistics.mean();
         some.errors[k] = statistics.standard_error();
@@ -125,17 +127,19 @@ std::size_t step_for(std::size_t sensors, std::size_t wanted)
     return std::max<std::size_t>(1, sensors / wanted);
 }
 
-void build(AmbientBuild& ambient, const std::vector<SurfacePlace>& receivers, bool cached, double footprint_m)
+/// Paths start at a sensor, upwards with the cosine, as its light arrives.
+AmbientBuild::Start from_sensors(const std::vector<SurfacePlace>& receivers)
 {
-    // Paths start at a sensor, upwards with the cosine, as its light arrives.
-    ambient.build_deep(receivers.size(), [&](std::size_t i, PathRandom& random, Ray& ray) {
+    return [&receivers](std::size_t i, PathRandom& random, Ray& ray) {
         const Direction local = cosine_hemisphere(random.pair());
         const Direction direction = frame_about(receivers[i].normal).to_world(local);
         ray = {receivers[i].position + receivers[i].normal * receivers[i].error_m, direction, infinity};
         return true;
-    });
-    if (!cached)
-        return;
+    };
+}
+
+void add_records(AmbientBuild& ambient, const std::vector<SurfacePlace>& receivers, double footprint_m)
+{
     for (std::size_t step = 64;; step /= 4) {
         std::vector<AmbientCandidate> candidates;
         for (std::size_t i = step / 2; i < receivers.size(); i += step)
@@ -144,6 +148,56 @@ void build(AmbientBuild& ambient, const std::vector<SurfacePlace>& receivers, bo
         if (step == 1)
             return;
     }
+}
+
+/// Some of the sensors, looked at before all of them.
+class PilotRun {
+public:
+    PilotRun(const SensorTask& task, int threads, const Progress& progress, const std::string& grid)
+        : task_(task), threads_(threads), teller_(progress, "pilot run, grid " + grid, pilot_sensors)
+    {
+    }
+    PilotErrors errors(bool plain)
+    {
+        constexpr int times_fewer = 4;
+        const double shared = plain ? 0 : error_with(pilot_paths / same_paths_share, true);
+        const double found = error_with(pilot_paths, false), with_fewer = error_with(pilot_paths / times_fewer, false);
+        return {found, pilot_paths, shared, order_of(found, with_fewer, shared, times_fewer)};
+    }
+    /// Far beyond what was looked at, a second look tells how errors really fall.
+    int samples_for(PilotErrors pilot, double accuracy)
+    {
+        constexpr int far = 8;
+        int samples = lightwell::samples_for(pilot, accuracy, most_samples);
+        while (samples > far * pilot.samples) {
+            const double found = error_with(far * pilot.samples, false);
+            pilot = {found, far * pilot.samples, pilot.shared, order_of(found, pilot.found, pilot.shared, far)};
+            samples = lightwell::samples_for(pilot, accuracy, most_samples);
+        }
+        return samples;
+    }
+
+private:
+    double error_with(int samples, bool same_paths)
+    {
+        const std::size_t step = step_for(task_.places.size(), pilot_sensors);
+        const Some some = measure_some(task_, samples, step, threads_, teller_, same_paths);
+        return median_relative(some.values, some.errors);
+    }
+    const SensorTask& task_;
+    int threads_;
+    Teller teller_;
+};
+
+/// Sensors meet many places of the deep field, so that a coarse one often serves; where its error shows in the pilot
+/// run it is made finer, by what that error says.
+constexpr double first_deep = 4, last_deep = 0.125; // times the accuracy
+constexpr double most_shared = 0.85, wished_shared = 0.65;
+
+double finer_deep(double deep_accuracy, double shared, double accuracy)
+{
+    const double excess = wished_shared * accuracy / shared;
+    return std::max(last_deep * accuracy, deep_accuracy * std::clamp(excess * excess, 1.0 / 16, 0.5));
 }
 
 } // namespace
@@ -163,19 +217,32 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
     AmbientBuild ambient(*parts_, effort_of(settings), techniques, stop_when_asked(progress),
                          plain ? "" : settings.ambient_file.file);
-    if (!plain) {
+    const bool own_field = !plain && !techniques.cache && settings.samples <= 0 && settings.ambient_file.file.empty();
+    double deep_accuracy = settings.accuracy * (own_field ? first_deep : 1);
+    const auto build = [&] {
         progress.tell("ambient light, grid " + grid.name, 0);
-        build(ambient, receivers, techniques.cache, grid.spacing_m);
-    }
+        if (own_field)
+            ambient.rebuild_deep(deep_accuracy, receivers.size(), from_sensors(receivers));
+        else
+            ambient.build_deep(receivers.size(), from_sensors(receivers));
+        if (techniques.cache)
+            add_records(ambient, receivers, grid.spacing_m);
+    };
+    if (!plain)
+        build();
     const SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed,
                           plain || techniques.cache ? nullptr : &ambient.deep()};
     result.samples = whole_replicates(settings.samples);
     if (settings.samples <= 0) {
-        Teller teller(progress, "pilot run, grid " + grid.name, pilot_sensors);
-        const Some some =
-            measure_some(task, pilot_paths, step_for(receivers.size(), pilot_sensors), settings.threads, teller);
-        result.samples = samples_for(median_relative(some.values, some.errors), pilot_paths, settings.accuracy,
-                                     most_samples, plain ? 0.5 : 1);
+        PilotRun run(task, settings.threads, progress, grid.name);
+        PilotErrors pilot = run.errors(plain);
+        while (own_field && pilot.shared > most_shared * settings.accuracy &&
+               deep_accuracy > last_deep * settings.accuracy) {
+            deep_accuracy = finer_deep(deep_accuracy, pilot.shared, settings.accuracy);
+            build();
+            pilot = run.errors(plain);
+        }
+        result.samples = run.samples_for(pilot, settings.accuracy);
     }
     Teller teller(progress, "grid " + grid.name, receivers.size());
     const Some all = measure_some(task, result.samples, 1, settings.threads, teller);

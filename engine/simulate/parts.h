@@ -51,7 +51,7 @@ public:
     void done_one()
     {
         const std::lock_guard lock(mutex_);
-        progress_.tell(stage_, static_cast<double>(++done_) / static_cast<double>(total_));
+        progress_.tell(stage_, std::min(1.0, static_cast<double>(++done_) / static_cast<double>(total_)));
     }
 
 private:

@@ -49,14 +49,14 @@ PathRandom PixelTask::random_of(int x, int y, int replicate, std::uint32_t path)
     return PathRandom(mix_bits(seed, static_cast<std::uint64_t>(replicate)), pixel, path);
 }
 
-PixelResult PixelTask::measure(int x, int y, int samples) const
+PixelResult PixelTask::measure(int x, int y, int samples, bool same_paths) const
 {
     PixelResult result;
     const auto each = static_cast<std::uint32_t>(samples / replicates);
     for (int r = 0; r < replicates; ++r) {
         Spectrum radiance, irradiance;
         for (std::uint32_t i = 0; i < each; ++i)
-            add_path(result, x, y, r, random_of(x, y, r, i), radiance, irradiance);
+            add_path(result, x, y, r, random_of(x, y, same_paths ? 0 : r, i), radiance, irradiance);
         radiance = radiance / each;
         for (int c = 0; c < 3; ++c)
             result.channel[c].add(radiance[c]);

@@ -35,7 +35,8 @@ struct PixelTask {
     int width, height;
     std::uint64_t seed;
 
-    PixelResult measure(int x, int y, int samples) const;
+    /// @param same_paths  all replicates follow the same paths, so that only their ambient light differs
+    PixelResult measure(int x, int y, int samples, bool same_paths = false) const;
     /// Luminance of a few of its paths, cd/m^2.
     double probe(int x, int y, int paths) const;
     /// What its middle shows.

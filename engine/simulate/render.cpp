@@ -52,7 +52,7 @@ struct Lattice {
     std::vector<double> values, errors;
 };
 Lattice measure_lattice(const PixelTask& task, const Tile& part, int columns, int rows, int samples, int threads,
-                        Teller& teller)
+                        Teller& teller, bool same_paths = false)
 {
     Lattice lattice;
     const int nx = std::min(columns, part.width), ny = std::min(rows, part.height);
@@ -65,7 +65,7 @@ Lattice measure_lattice(const PixelTask& task, const Tile& part, int columns, in
     lattice.errors.resize(lattice.x.size());
     parallel_for(lattice.x.size(), threads, [&](std::size_t i) {
         teller.check();
-        const PixelResult result = task.measure(lattice.x[i], lattice.y[i], samples);
+        const PixelResult result = task.measure(lattice.x[i], lattice.y[i], samples, same_paths);
         lattice.values[i] = result.luminance.mean();
         lattice.errors[i] = result.luminance.standard_error();
         teller.done_one();
@@ -248,11 +248,15 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     PictureResult result;
     result.samples = whole_replicates(settings.samples);
     if (settings.samples <= 0) {
-        Teller teller(progress, "pilot run", pilot_columns * pilot_rows);
-        const Lattice pilot =
-            measure_lattice(pixel, whole, pilot_columns, pilot_rows, pilot_samples, settings.threads, teller);
-        result.samples = samples_for(median_relative(pilot.values, pilot.errors), pilot_samples, settings.accuracy,
-                                     most_samples, 0.5);
+        Teller teller(progress, "pilot run", 2 * pilot_columns * pilot_rows);
+        const auto error_with = [&](int samples, bool same_paths) {
+            const Lattice lattice =
+                measure_lattice(pixel, whole, pilot_columns, pilot_rows, samples, settings.threads, teller, same_paths);
+            return median_relative(lattice.values, lattice.errors);
+        };
+        const double shared = plain ? 0 : error_with(pilot_samples / same_paths_share, true);
+        result.samples =
+            samples_for({error_with(pilot_samples, false), pilot_samples, shared}, settings.accuracy, most_samples);
     }
     Teller teller(progress, "view " + view.name, tiles_of(wanted.width, wanted.height).size());
     const double tolerance = plain || !settings.techniques.image_sampling ? 0 : settings.accuracy;

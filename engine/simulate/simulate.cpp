@@ -40,12 +40,24 @@ int whole_replicates(int samples)
     return std::max(1, (samples + replicates - 1) / replicates) * replicates;
 }
 
-int samples_for(double found, int pilot, double wanted, int most, double order) noexcept
+double order_of(double found, double found_with_fewer, double shared, double times_fewer) noexcept
 {
-    const double ratio = found / wanted;
-    const double wanted_samples = pilot * (ratio < 1 ? std::pow(ratio, 1 / order) : ratio * ratio);
-    const double samples = std::min(wanted_samples, static_cast<double>(most));
-    return whole_replicates(static_cast<int>(std::ceil(samples)));
+    constexpr double least = 0.5, most = 0.9; // independent samples; more than this is chance
+    const double own = found * found - shared * shared,
+                 own_with_fewer = found_with_fewer * found_with_fewer - shared * shared;
+    if (!(own > 0 && own_with_fewer > own))
+        return least;
+    return std::clamp(0.5 * std::log(own_with_fewer / own) / std::log(times_fewer), least, most);
+}
+
+int samples_for(const PilotErrors& pilot, double wanted, int most) noexcept
+{
+    constexpr double least_own = 0.5; // of the wanted error
+    const double shared = pilot.shared;
+    const double own = std::sqrt(std::fmax(pilot.found * pilot.found - shared * shared, 0));
+    const double own_wanted = std::fmax(std::sqrt(std::fmax(wanted * wanted - shared * shared, 0)), least_own * wanted);
+    const double samples = pilot.samples * std::pow(own / own_wanted, 1 / pilot.order);
+    return whole_replicates(static_cast<int>(std::ceil(std::min(samples, static_cast<double>(most)))));
 }
 
 void check_accuracy(double accuracy, const std::string& place)
