@@ -14,3 +14,10 @@ find_package(draco REQUIRED)               # importers/gltf
 find_package(meshoptimizer REQUIRED)       # importers/gltf
 find_package(TinyGLTF REQUIRED)            # importers/gltf
 find_package(Python3 REQUIRED COMPONENTS Interpreter) # tests/structure, tests/cli
+
+# Debian's configuration of OpenSubdiv names static libraries that the package does not have.
+find_path(OPENSUBDIV_INCLUDE_DIR opensubdiv/far/topologyRefiner.h REQUIRED)
+find_library(OPENSUBDIV_CPU_LIBRARY osdCPU REQUIRED)
+add_library(OpenSubdiv::osdCPU UNKNOWN IMPORTED) # engine/geometry
+set_target_properties(OpenSubdiv::osdCPU PROPERTIES IMPORTED_LOCATION ${OPENSUBDIV_CPU_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${OPENSUBDIV_INCLUDE_DIR})

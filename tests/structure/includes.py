@@ -50,6 +50,8 @@ PACKAGES = {
     "draco/": "draco",
     "meshoptimizer.h": "meshoptimizer",
     "tiny_gltf.h": "tinygltf",
+    "opensubdiv/": "OpenSubdiv",
+    "assimp/": "assimp",
     "gtest/": "GTest",
     "rapidcheck": "rapidcheck",
 }
