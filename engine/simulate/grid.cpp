@@ -157,10 +157,10 @@ public:
         : task_(task), threads_(threads), teller_(progress, "pilot run, grid " + grid, pilot_sensors)
     {
     }
-    PilotErrors errors(bool plain)
+    double shared_error() { return error_with(pilot_paths / same_paths_share, true); }
+    PilotErrors errors(double shared)
     {
         constexpr int times_fewer = 4;
-        const double shared = plain ? 0 : error_with(pilot_paths / same_paths_share, true);
         const double found = error_with(pilot_paths, false), with_fewer = error_with(pilot_paths / times_fewer, false);
         return {found, pilot_paths, shared, order_of(found, with_fewer, shared, times_fewer)};
     }
@@ -192,7 +192,8 @@ private:
 /// Sensors meet many places of the deep field, so that a coarse one often serves; where its error shows in the pilot
 /// run it is made finer, by what that error says.
 constexpr double first_deep = 4, last_deep = 0.125; // times the accuracy
-constexpr double most_shared = 0.85, wished_shared = 0.65;
+constexpr double coarsest_deep = 0.05;              // coarser ones cost about the same
+constexpr double most_shared = 1, wished_shared = 0.9;
 
 double finer_deep(double deep_accuracy, double shared, double accuracy)
 {
@@ -217,8 +218,8 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
     AmbientBuild ambient(*parts_, effort_of(settings), techniques, stop_when_asked(progress),
                          plain ? "" : settings.ambient_file.file);
-    const bool own_field = !plain && !techniques.cache && settings.samples <= 0 && settings.ambient_file.file.empty();
-    double deep_accuracy = settings.accuracy * (own_field ? first_deep : 1);
+    const bool own_field = !plain && !techniques.cache && settings.ambient_file.file.empty();
+    double deep_accuracy = std::min(first_deep * settings.accuracy, coarsest_deep);
     const auto build = [&] {
         progress.tell("ambient light, grid " + grid.name, 0);
         if (own_field)
@@ -233,17 +234,15 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     const SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed,
                           plain || techniques.cache ? nullptr : &ambient.deep()};
     result.samples = whole_replicates(settings.samples);
-    if (settings.samples <= 0) {
-        PilotRun run(task, settings.threads, progress, grid.name);
-        PilotErrors pilot = run.errors(plain);
-        while (own_field && pilot.shared > most_shared * settings.accuracy &&
-               deep_accuracy > last_deep * settings.accuracy) {
-            deep_accuracy = finer_deep(deep_accuracy, pilot.shared, settings.accuracy);
-            build();
-            pilot = run.errors(plain);
-        }
-        result.samples = run.samples_for(pilot, settings.accuracy);
+    PilotRun pilot(task, settings.threads, progress, grid.name);
+    double shared = plain || (!own_field && settings.samples > 0) ? 0 : pilot.shared_error();
+    while (own_field && shared > most_shared * settings.accuracy && deep_accuracy > last_deep * settings.accuracy) {
+        deep_accuracy = finer_deep(deep_accuracy, shared, settings.accuracy);
+        build();
+        shared = pilot.shared_error();
     }
+    if (settings.samples <= 0)
+        result.samples = pilot.samples_for(pilot.errors(shared), settings.accuracy);
     Teller teller(progress, "grid " + grid.name, receivers.size());
     const Some all = measure_some(task, result.samples, 1, settings.threads, teller);
     for (std::size_t i = 0; i < receivers.size(); ++i) {
