@@ -168,14 +168,21 @@ void AmbientCache::clamp_to_neighbours(AmbientRecord& record)
 
 void AmbientCache::insert(std::vector<AmbientRecord>&& records)
 {
+    if (records.empty())
+        return;
     for (AmbientRecord& record : records) {
         sites_.push_back(record.site);
-        wide_.push_back(record.site);
-        for (double& reach : wide_.back().reach_m)
-            reach *= widening;
         records_.push_back(std::move(record));
     }
     tree_.build(sites_);
+}
+
+void AmbientCache::complete()
+{
+    wide_ = sites_;
+    for (AmbientSite& site : wide_)
+        for (double& reach : site.reach_m)
+            reach *= widening;
     wide_tree_.build(wide_);
 }
 

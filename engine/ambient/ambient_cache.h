@@ -55,8 +55,10 @@ public:
                      const CacheSettings& settings);
     /// Adds records that were made before, by an earlier run or another process, as they are.
     void add(std::vector<AmbientRecord> records);
-    /// Where no record reaches, as in the last pixels before a corner, those nearby answer if nothing stands between.
-    /// @return false where none does
+    /// After the last generation. From then on, where no record reaches, as in the last pixels before a corner, those
+    /// nearby answer if nothing stands between.
+    void complete();
+    /// @return false where no record answers
     bool irradiance(const Point& at, const Direction& normal, CachedAmbient& found) const noexcept;
 
     const std::vector<AmbientRecord>& records() const noexcept { return records_; }

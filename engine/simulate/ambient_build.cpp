@@ -12,7 +12,7 @@ constexpr std::uint64_t walk_salt = 0x77616c6b;
 /// Diffuse scatterings along a path that looks for sites: the third bounce reaches about every corner of a room.
 constexpr int walk_scatterings = 3;
 /// A kept deep field serves another view when it answers at this share of what that view's paths meet.
-constexpr double answered_share = 0.9;
+constexpr double answered_share = 0.8;
 
 /// At this accuracy: 64 rays a site, 512 a record, records 0.1 of the harmonic mean distance apart.
 constexpr double usual_accuracy = 0.05;

@@ -47,6 +47,8 @@ public:
     }
     /// One generation of records at these places. @return records added
     std::size_t grow(const std::vector<AmbientCandidate>& candidates);
+    /// After the last generation.
+    void complete() { cache_.complete(); }
 
     /// Uses what has been built so far.
     const PathTracer& tracer() const noexcept { return tracer_; }

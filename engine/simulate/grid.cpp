@@ -146,7 +146,7 @@ void add_records(AmbientBuild& ambient, const std::vector<SurfacePlace>& receive
             candidates.push_back({receivers[i], footprint_m});
         ambient.grow(candidates);
         if (step == 1)
-            return;
+            return ambient.complete();
     }
 }
 

@@ -142,6 +142,7 @@ void build(AmbientBuild& ambient, const Sights& sights, const Techniques& techni
         ambient.grow(candidates);
         teller.done_one();
     }
+    ambient.complete();
 }
 
 void check_size(const View& view, const PictureSettings& settings)

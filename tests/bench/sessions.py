@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What a user's session takes: the second view from a kept cache, two threads, the samples, a forest.
 
-    sessions.py second-view [--cache "--cache FILE"] [--options "--accuracy 5%"]
+    sessions.py second-view [--cache "--ambient-file FILE"] [--options "--accuracy 5%"]
     sessions.py threads [--options "--samples 256"] [--pairs 5]
     sessions.py samples
     sessions.py forest --yardstick FOLDER [--options "..."]
@@ -131,7 +131,7 @@ def forest(asked, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=("second-view", "threads", "samples", "forest"))
-    parser.add_argument("--cache", default="--cache FILE", help="option that keeps a cache, with the word FILE in it")
+    parser.add_argument("--cache", default="--ambient-file FILE", help="option that keeps a cache, with the word FILE in it")
     parser.add_argument("--options", default="--samples 16")
     parser.add_argument("--pairs", type=int, default=5)
     parser.add_argument("--yardstick", type=pathlib.Path, default=os.environ.get("LIGHTWELL_YARDSTICK"))
