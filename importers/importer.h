@@ -62,10 +62,13 @@ private:
 bool recognize_dxf(const std::filesystem::path& file);
 bool recognize_obj(const std::filesystem::path& file);
 bool recognize_gltf(const std::filesystem::path& file);
+/// FBX, Collada, 3DS, PLY, STL, X3D, OFF, IFC; also STEP, IGES, USD and VRML, which import_assimp refuses by name.
+bool recognize_assimp(const std::filesystem::path& file);
 
 /// @throws InputError: unreadable, truncated or malformed beyond use
 Imported import_dxf(const std::filesystem::path& file, const ImportOptions& options);
 Imported import_obj(const std::filesystem::path& file, const ImportOptions& options);
 Imported import_gltf(const std::filesystem::path& file, const ImportOptions& options);
+Imported import_assimp(const std::filesystem::path& file, const ImportOptions& options);
 
 } // namespace lightwell

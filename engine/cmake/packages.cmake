@@ -12,6 +12,7 @@ find_package(tomlplusplus REQUIRED)        # engine/base
 find_package(CLI11 REQUIRED)               # plugins/cli
 find_package(draco REQUIRED)               # importers/gltf
 find_package(meshoptimizer REQUIRED)       # importers/gltf
+find_package(assimp 5.2 REQUIRED)          # importers/assimp, the child program alone
 find_package(TinyGLTF REQUIRED)            # importers/gltf
 find_package(Python3 REQUIRED COMPONENTS Interpreter) # tests/structure, tests/cli
 

@@ -10,8 +10,12 @@ struct Format {
     Imported (*import)(const std::filesystem::path&, const ImportOptions&);
 };
 
-/// From the most to the least certain mark: glTF has a magic number or an asset, DXF its section tags, OBJ only words.
-constexpr Format formats[] = {{recognize_gltf, import_gltf}, {recognize_dxf, import_dxf}, {recognize_obj, import_obj}};
+/// From the most to the least certain mark: glTF has a magic number or an asset, the long tail its first words, DXF its
+/// section tags, OBJ only words.
+constexpr Format formats[] = {{recognize_gltf, import_gltf},
+                              {recognize_assimp, import_assimp},
+                              {recognize_dxf, import_dxf},
+                              {recognize_obj, import_obj}};
 
 } // namespace
 
@@ -21,7 +25,7 @@ Imported import_file(const std::filesystem::path& file, const ImportOptions& opt
         if (format.recognize(file))
             return format.import(file, options);
     throw InputError(file.filename().string(), "content is none of the formats that can be read",
-                     "expected DXF, OBJ, glTF (.gltf) or GLB");
+                     "expected DXF, OBJ, glTF, GLB, FBX, Collada, 3DS, PLY, STL, X3D, OFF or IFC 2x3");
 }
 
 } // namespace lightwell
