@@ -5,6 +5,7 @@
 #include "materials/dielectric.h"
 #include "materials/thin_glass.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lightwell {
@@ -180,6 +181,25 @@ Spectrum typical(const Emitter&)
     return {};
 }
 
+Spectrum within(const Spectrum& s, double most)
+{
+    return {std::clamp(s.r, 0.0, most), std::clamp(s.g, 0.0, most), std::clamp(s.b, 0.0, most)};
+}
+
+/// Wherever the material keeps its colour.
+template <class M>
+void multiply(M& material, const Spectrum& colour)
+{
+    if constexpr (requires { material.colour; })
+        material.colour = within(material.colour * colour, 1);
+    else if constexpr (requires { material.transmissivity; })
+        material.transmissivity = within(material.transmissivity * colour, 1);
+    else if constexpr (requires { material.reflectance; })
+        material.reflectance = within(material.reflectance * colour, 1);
+    else if constexpr (requires { material.radiance; })
+        material.radiance = within(material.radiance * colour, infinity);
+}
+
 } // namespace
 
 void validate_material(const Material& material, const std::string& place)
@@ -219,6 +239,13 @@ Spectrum emitted_radiance(const Material& material) noexcept
                 return {};
         },
         material);
+}
+
+Material tinted(const Material& material, const Spectrum& colour) noexcept
+{
+    Material made = material;
+    std::visit([&](auto& m) { multiply(m, colour); }, made);
+    return made;
 }
 
 Spectrum typical_reflectance(const Material& material) noexcept

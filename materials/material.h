@@ -79,6 +79,9 @@ std::string type_name(const Material& material);
 bool is_emitter(const Material& material) noexcept;
 /// Radiance along the normal of the emitting side; black for what does not emit.
 Spectrum emitted_radiance(const Material& material) noexcept;
+/// The material under a pattern of this colour: what it reflects, transmits or emits is multiplied, and held within 0
+/// and 1, of emitters at 0 or above. The highlight of plastic and trans keeps its own colour, dielectrics theirs.
+Material tinted(const Material& material, const Spectrum& colour) noexcept;
 /// Hemispherical reflectance under diffuse light, approximately: for tables and proposals, not for transport.
 Spectrum typical_reflectance(const Material& material) noexcept;
 

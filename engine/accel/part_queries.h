@@ -96,6 +96,7 @@ struct PartQueries {
     const std::vector<PartQueries>* prototypes = nullptr;
     const std::vector<std::uint8_t>* see_through = nullptr; ///< by modifier
     const std::vector<const Material*>* materials = nullptr;
+    const VariedMaterials* varied = nullptr;
     Box box;
     Point centre;
     double scale = 1; ///< power of two: (p - centre) * scale lies within [-1, 1]
@@ -120,7 +121,7 @@ void run(const PartQueries& queries, Level& level);
 /// The exact tests (surface_tests.cpp): what they find goes to the level's Trace.
 void test_leaf(const Level& level, const Leaf& leaf);
 void test_triangle(const Level& level, const MeshGeometry& geometry, std::uint32_t triangle);
-/// Normals and error of a hit found at this level.
+/// Normals and error of a hit found at this level, and where it lies in the frame of its part.
 void describe(const Level& level, Hit& hit, const MeshGeometry* mesh);
 
 /// Boxes, normals and inverse maps of a part; its prototypes come first.

@@ -31,9 +31,11 @@ struct RayQueries::State {
     std::atomic<std::int64_t> embree_bytes{0};
     std::vector<std::uint8_t> see_through;
     std::vector<const Material*> materials;
+    VariedMaterials varied;
     std::vector<PartQueries> prototypes;
     PartQueries root;
 
+    explicit State(const Scene& scene) : varied(scene) {}
     ~State()
     {
         for (PartQueries& queries : prototypes)
@@ -51,10 +53,11 @@ struct RayQueries::State {
         queries.prototypes = &prototypes;
         queries.see_through = &see_through;
         queries.materials = &materials;
+        queries.varied = &varied;
     }
 };
 
-RayQueries::RayQueries(const Scene& scene) : state_(std::make_unique<State>())
+RayQueries::RayQueries(const Scene& scene) : state_(std::make_unique<State>(scene))
 {
     State& state = *state_;
     state.device = rtcNewDevice(nullptr);
@@ -62,9 +65,12 @@ RayQueries::RayQueries(const Scene& scene) : state_(std::make_unique<State>())
         throw std::runtime_error("the ray tracing kernel could not be started");
     rtcSetDeviceMemoryMonitorFunction(state.device, count_memory, &state.embree_bytes);
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
-        const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;
-        state.materials.push_back(material);
-        state.see_through.push_back(material != nullptr && Bsdf(*material, true).lobes().transparent_to_shadows);
+        const auto id = static_cast<ModifierId>(i);
+        state.materials.push_back(resolve(scene, id).material);
+        bool see_through = false;
+        for (const Material* material : state.varied.possible(id))
+            see_through |= material == nullptr || Bsdf(*material, true).lobes().transparent_to_shadows;
+        state.see_through.push_back(state.materials.back() != nullptr && see_through);
     }
     state.prototypes.resize(scene.prototypes.size());
     std::vector<Box> boxes;

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "engine/base/spectrum.h"
-#include "engine/scene/scene.h"
+#include "engine/base/transform.h"
+#include "engine/scene/varied_materials.h"
 
 #include <cstdint>
 #include <memory>
@@ -27,6 +28,7 @@ struct Hit {
     std::uint32_t surface = 0;  ///< index into part->surfaces
     std::uint32_t triangle = 0; ///< of a mesh
     double error_m = 0;         ///< bound on how far `position` may lie off the surface
+    Affine to_part;             ///< into the frame of the part that is instanced, where the modifier varies
 
     /// `position` moved off the surface to the side of `direction`, beyond its error: where scattered rays start.
     Point leave(const Vec3& direction) const noexcept
@@ -34,6 +36,10 @@ struct Hit {
         return position + normal * (dot(normal, direction) >= 0 ? error_m : -error_m);
     }
 };
+
+/// What patterns may ask about a hit.
+/// @param direction  of the ray, unit; the place refers to the hit
+PatternPlace pattern_place(const Hit& hit, const Direction& direction, double distance_m) noexcept;
 
 /// The path hash of an instance's surfaces; outer is the hash around it.
 std::uint64_t instance_path(std::uint64_t outer, std::uint32_t instance_surface) noexcept;

@@ -47,6 +47,36 @@ Normals mesh_normals(const Mesh& mesh, const MeshGeometry& geometry, std::uint32
     return {flat, dot(smooth, flat) < 0 ? -smooth : smooth};
 }
 
+/// Coordinates of the picture that is laid on a mesh; 0 where it has none.
+UnitSquare texture_at(const Mesh& mesh, std::uint32_t triangle, const Point& at)
+{
+    if (mesh.texture.size() != 2 * mesh.points.size())
+        return {};
+    const std::uint32_t* corner = &mesh.triangles[3 * std::size_t{triangle}];
+    const Point &a = mesh.points[corner[0]], &b = mesh.points[corner[1]], &c = mesh.points[corner[2]];
+    const Vec3 area = cross(b - a, c - a);
+    const double whole = dot(area, area);
+    if (!(whole > 0))
+        return {};
+    const double wb = dot(area, cross(at - a, c - a)) / whole, wc = dot(area, cross(b - a, at - a)) / whole;
+    const auto mixed = [&](std::size_t axis) {
+        const auto of = [&](int i) { return mesh.texture[2 * std::size_t{corner[i]} + axis]; };
+        return of(0) + wb * (of(1) - of(0)) + wc * (of(2) - of(0));
+    };
+    return {mixed(0), mixed(1)};
+}
+
+/// From the world into the frame of this level's part.
+Affine into_part(const Level& level)
+{
+    Affine into;
+    for (const Level* l = &level; l->instance != nullptr; l = l->outer) {
+        const std::size_t index = static_cast<std::size_t>(l->instance - l->outer->part->part->instances.data());
+        into = compose(into, l->outer->part->placed[index].to_local);
+    }
+    return into;
+}
+
 Normals surface_normals(const PartQueries& queries, const Surface& surface, const MeshGeometry* mesh,
                         std::uint32_t triangle, const Point& at)
 {
@@ -78,6 +108,21 @@ Normals surface_normals(const PartQueries& queries, const Surface& surface, cons
 
 } // namespace
 
+PatternPlace pattern_place(const Hit& hit, const Direction& direction, double distance_m) noexcept
+{
+    PatternPlace place;
+    place.position = hit.position;
+    place.direction = direction;
+    place.normal = hit.normal;
+    place.distance_m = distance_m;
+    if (hit.path != 0)
+        place.to_part = &hit.to_part;
+    const Surface& surface = hit.part->surfaces[hit.surface];
+    if (surface.shape == Shape::mesh)
+        place.texture = texture_at(*hit.part->meshes[surface.index], hit.triangle, hit.to_part.point(hit.position));
+    return place;
+}
+
 void describe(const Level& level, Hit& hit, const MeshGeometry* mesh)
 {
     const PartQueries& queries = *level.part;
@@ -93,6 +138,8 @@ void describe(const Level& level, Hit& hit, const MeshGeometry* mesh)
         hit.error_m = std::max(hit.error_m, reach * l->stretch + moved);
     }
     hit.error_m *= position_steps * std::numeric_limits<double>::epsilon();
+    if (queries.varied->varies(hit.modifier))
+        hit.to_part = into_part(level);
 }
 
 namespace {
@@ -135,7 +182,27 @@ void record_passage(const Level& level, const Candidate& candidate, double t)
     while (root->outer != nullptr)
         root = root->outer;
     const double cosine = dot(normal, normalized(root->direction));
+    SeenMaterial seen;
+    if (queries.varied->varies(modifier)) {
+        Hit hit;
+        hit.position = root->origin + root->direction * t;
+        hit.normal = normal;
+        hit.path = level.path;
+        hit.part = queries.part;
+        hit.surface = candidate.surface;
+        hit.triangle = candidate.triangle;
+        hit.to_part = into_part(level);
+        const double stretch = length(root->direction);
+        queries.varied->look(modifier, pattern_place(hit, root->direction / stretch, t * stretch), seen);
+        if (seen.material == nullptr)
+            return;
+        material = seen.material;
+    }
     const Bsdf bsdf(*material, cosine < 0);
+    if (!bsdf.lobes().transparent_to_shadows) {
+        trace.opaque = true;
+        return;
+    }
     const double c = std::min(1.0, std::fabs(cosine));
     trace.passed->add(t, bsdf.straight_transmittance({std::sqrt(1 - c * c), 0, c}));
 }

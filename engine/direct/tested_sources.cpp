@@ -148,7 +148,7 @@ void TestedSources::add_lamp(std::size_t lamp, double weight)
 {
     const LocalSource& source = context_.sources.lamps()[lamp];
     const double safe = source.potential(shares_.from, shares_.normal, shares_.transmits);
-    const Spectrum radiance = emitted_radiance(source.material());
+    const Spectrum radiance = source.typical_radiance(shares_.from);
     const double photopic_radiance = photopic(radiance);
     if (!(safe > 0) || !(photopic_radiance > 0))
         return;

@@ -55,8 +55,8 @@ public:
         if (resolved.material == nullptr)
             return;
         const Material& material = *resolved.material;
-        needs.patterned |= resolved.brightness != nullptr;
-        needs.grey = needs.grey && is_grey(material);
+        needs.patterned |= resolved.brightness != nullptr || resolved.varies;
+        needs.grey = needs.grey && is_grey(material) && !resolved.varies; // a pattern may have colours
         if (is_emitter(material))
             add_lamp(material, usage);
         else
@@ -68,8 +68,8 @@ public:
         const ResolvedMaterial resolved = resolve(scene_, modifier);
         if (resolved.material == nullptr || emitted_radiance(*resolved.material).is_black())
             return;
-        needs.patterned |= resolved.brightness != nullptr;
-        needs.grey = needs.grey && is_grey(*resolved.material);
+        needs.patterned |= resolved.brightness != nullptr || resolved.varies;
+        needs.grey = needs.grey && is_grey(*resolved.material) && !resolved.varies;
         (source.full_angle_deg > widest_sun_deg ? needs.wide_sources : needs.suns) += 1;
     }
 

@@ -33,6 +33,12 @@ ResolvedMaterial resolve(const Scene& scene, ModifierId id)
             found.material = material;
         if (const auto* brightness = std::get_if<SkyBrightness>(&modifier.what); brightness && !found.brightness)
             found.brightness = brightness;
+        if (const auto* varying = std::get_if<Varying>(&modifier.what)) {
+            found.varies = true;
+            for (const ModifierId mixed : {varying->foreground, varying->background})
+                if (found.material == nullptr)
+                    found.material = resolve(scene, mixed).material;
+        }
         const auto* alias = std::get_if<Alias>(&modifier.what);
         id = alias && alias->target != void_modifier ? alias->target : modifier.parent;
     }

@@ -7,12 +7,15 @@
 #include "materials/material.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <variant>
 #include <vector>
 
 namespace lightwell {
+
+class PlaceFunction; // materials/patterns/place_function.h
 
 /// Another name for a modifier; a layer is an alias of its material.
 struct Alias {
@@ -32,11 +35,21 @@ struct SkyBrightness {
     /// 0.4 % of the horizontal illuminance.
     bool sharp_horizon = false;
 };
+/// What a function, data, a picture or letters change from place to place.
+struct Varying {
+    enum class Kind {
+        pattern, ///< a factor on the colour of the material below it
+        texture, ///< a vector added to the normal
+        mixture  ///< the share, 0 to 1, of the foreground; the rest is background
+    } kind = Kind::pattern;
+    std::shared_ptr<const PlaceFunction> function;
+    ModifierId foreground = void_modifier, background = void_modifier; ///< of a mixture; void is invisible
+};
 
-/// A named entry of the scene: a material, a pattern that scales the material below it, or a name for another entry.
+/// A named entry of the scene: a material, what varies the material below it, or a name for another entry.
 struct Modifier {
     std::string name;
-    std::variant<Alias, Inherited, SkyBrightness, Material> what;
+    std::variant<Alias, Inherited, SkyBrightness, Material, Varying> what;
     ModifierId parent = void_modifier; ///< the modifier that it modifies in turn (`skyfunc glow sky_glow`: skyfunc)
 };
 
@@ -57,8 +70,9 @@ struct Scene {
 
 /// What a modifier finally is: the material behind its aliases and the pattern on the way.
 struct ResolvedMaterial {
-    const Material* material = nullptr;        ///< null: void, or inherited and not bound
-    const SkyBrightness* brightness = nullptr; ///< the pattern that scales it
+    const Material* material = nullptr;        ///< null: void, or inherited and not bound; of a mixture the foreground
+    const SkyBrightness* brightness = nullptr; ///< the sky's brightness that scales it
+    bool varies = false;                       ///< from place to place: ask VariedMaterials
 };
 ResolvedMaterial resolve(const Scene& scene, ModifierId modifier);
 

@@ -1,6 +1,7 @@
 #include "engine/scene/scene_hash.h"
 
 #include "engine/base/random.h"
+#include "materials/patterns/place_function.h"
 
 #include <cstring>
 #include <type_traits>
@@ -24,6 +25,11 @@ public:
         static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0);
         bits(values.size());
         bytes(values.data(), values.size() * sizeof(T));
+    }
+    void text(const std::string& value) noexcept
+    {
+        bits(value.size());
+        bytes(value.data(), value.size());
     }
     std::uint64_t value() const noexcept { return state_; }
 
@@ -85,6 +91,10 @@ private:
             waiting.push_back(modifier.parent);
             if (const auto* alias = std::get_if<Alias>(&modifier.what))
                 waiting.push_back(alias->target);
+            if (const auto* varying = std::get_if<Varying>(&modifier.what)) {
+                waiting.push_back(varying->foreground);
+                waiting.push_back(varying->background);
+            }
             if (const auto* material = std::get_if<Material>(&modifier.what))
                 if (const auto* illum = std::get_if<Illum>(material))
                     waiting.push_back(scene_.find_modifier(illum->alternate));
@@ -108,6 +118,19 @@ struct HashWhat {
         hash.bits(static_cast<std::uint64_t>(sky.kind) << 1 | (sky.sharp_horizon ? 1 : 0));
         hash.plain(Vec3{sky.zenith, sky.ground, sky.normalization});
         hash.plain(sky.to_sun);
+    }
+    void operator()(const Varying& varying) const noexcept
+    {
+        const PatternText& text = varying.function->text();
+        hash.bits(static_cast<std::uint64_t>(varying.kind));
+        hash.bits(used.number(varying.foreground));
+        hash.bits(used.number(varying.background));
+        hash.text(text.type);
+        for (const std::string& word : text.words)
+            hash.text(word);
+        hash.list(text.numbers);
+        hash.text(text.contents);
+        hash.plain(varying.function->to_scene());
     }
     void operator()(const Material& material) const noexcept
     {

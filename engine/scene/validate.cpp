@@ -17,6 +17,50 @@ std::string at(const Part& part, const Surface& surface)
     return fmt::format("{}: surface \"{}\"", part.name.empty() ? "scene" : part.name, surface.name);
 }
 
+/// Mixtures branch, so that their circles are looked for depth first.
+class MixtureCircles {
+public:
+    explicit MixtureCircles(const Scene& scene) : scene_(scene), state_(scene.modifiers.size(), State::unknown) {}
+    void check(ModifierId id, int depth = 0)
+    {
+        constexpr int deepest = 200;
+        if (id == void_modifier)
+            return;
+        State& state = state_[static_cast<std::size_t>(id)];
+        const Modifier& modifier = scene_.modifiers[static_cast<std::size_t>(id)];
+        if (state == State::open || depth > deepest)
+            reject(fmt::format("modifier \"{}\"", modifier.name), "mixtures mix each other in a circle, or too deep",
+                   "let one of them name a material");
+        if (state == State::done)
+            return;
+        state = State::open;
+        for (ModifierId step = id; step != void_modifier;) {
+            const Modifier& now = scene_.modifiers[static_cast<std::size_t>(step)];
+            if (const auto* varying = std::get_if<Varying>(&now.what)) {
+                check(varying->foreground, depth + 1);
+                check(varying->background, depth + 1);
+            }
+            const auto* alias = std::get_if<Alias>(&now.what);
+            step = alias && alias->target != void_modifier ? alias->target : now.parent;
+        }
+        state = State::done;
+    }
+
+private:
+    enum class State : char { unknown, open, done };
+    const Scene& scene_;
+    std::vector<State> state_;
+};
+
+void check_varying(const Varying& varying, const std::string& place, ModifierId count)
+{
+    if (varying.function == nullptr)
+        reject(place, "its function is missing");
+    for (const ModifierId mixed : {varying.foreground, varying.background})
+        if (mixed < void_modifier || mixed >= count)
+            reject(place, "mixes a modifier that does not exist");
+}
+
 void check_modifiers(const Scene& scene)
 {
     const auto count = static_cast<ModifierId>(scene.modifiers.size());
@@ -25,6 +69,8 @@ void check_modifiers(const Scene& scene)
         const std::string place = fmt::format("modifier \"{}\"", modifier.name);
         if (const auto* material = std::get_if<Material>(&modifier.what))
             validate_material(*material, place);
+        if (const auto* varying = std::get_if<Varying>(&modifier.what))
+            check_varying(*varying, place, count);
         ModifierId step = i;
         for (ModifierId walked = 0; step != void_modifier; ++walked) {
             if (step < void_modifier || step >= count)
@@ -36,6 +82,10 @@ void check_modifiers(const Scene& scene)
             step = alias && alias->target != void_modifier ? alias->target : now.parent;
         }
     }
+    MixtureCircles circles(scene);
+    for (ModifierId i = 0; i < count; ++i)
+        if (std::holds_alternative<Varying>(scene.modifiers[static_cast<std::size_t>(i)].what))
+            circles.check(i);
 }
 
 void check_points(const Part& part, const Surface& surface, const Point* points, std::size_t count)

@@ -104,14 +104,15 @@ PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceL
     : scene_(scene), rays_(rays), sources_(sources), virtual_sources_(virtual_sources), ambient_(ambient),
       direct_(sources, rays, settings), mirrored_(virtual_sources, sources, rays),
       eye_direct_(sources, rays, for_eyes(settings)), site_direct_(sources, rays, at_sites(settings)),
-      quick_direct_(sources, rays, behind_scattering(settings)), white_(Plastic{Spectrum::grey(1), 0, 0})
+      quick_direct_(sources, rays, behind_scattering(settings)), varied_(scene),
+      white_(Plastic{Spectrum::grey(1), 0, 0})
 {
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;
         materials_.push_back(material);
         const Illum* illum = material != nullptr ? std::get_if<Illum>(material) : nullptr;
         const bool has_alternate = illum != nullptr && !illum->alternate.empty() && illum->alternate != "void";
-        alternates_.push_back(has_alternate ? resolve(scene, scene.find_modifier(illum->alternate)).material : nullptr);
+        alternates_.push_back(has_alternate ? scene.find_modifier(illum->alternate) : void_modifier);
     }
 }
 
@@ -358,14 +359,20 @@ bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRand
     return scattered && follow(walk, vertex, *scattered, set) && survives(walk, random);
 }
 
-const Material* PathTracer::seen_material(const Walk& walk, const Hit& hit) const
+/// What the walk's ray meets: the material with its patterns, or what eyes see in its place; null: nothing. Textures
+/// bend the shading normal of the hit.
+const Material* PathTracer::seen_material(const Walk& walk, Hit& hit, SeenMaterial& seen) const
 {
-    const auto modifier = static_cast<std::size_t>(hit.modifier);
-    const Material* material = materials_[modifier];
+    ModifierId modifier = hit.modifier;
     const bool from_behind = dot(hit.normal, walk.ray.direction) > 0;
-    if (std::holds_alternative<Illum>(*material) && (!walk.bent || from_behind))
-        return alternates_[modifier];
-    return material;
+    if (std::holds_alternative<Illum>(*materials_[static_cast<std::size_t>(modifier)]) && (!walk.bent || from_behind))
+        modifier = alternates_[static_cast<std::size_t>(modifier)];
+    if (!varied_.varies(modifier))
+        return modifier == void_modifier ? nullptr : materials_[static_cast<std::size_t>(modifier)];
+    varied_.look(modifier, pattern_place(hit, walk.ray.direction, hit.t), seen);
+    if (!(seen.bend == Vec3{}))
+        hit.shading_normal = bent_normal(hit.shading_normal, seen.bend, walk.ray.direction);
+    return seen.material;
 }
 
 bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
@@ -378,7 +385,8 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     if (!walk.first)
         walk.first = hit;
     walk.way_m += hit.t;
-    const Material* material = seen_material(walk, hit);
+    SeenMaterial seen;
+    const Material* material = seen_material(walk, hit, seen);
     if (material == nullptr) { // invisible: the ray goes on as if it had met nothing
         walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity};
         return true;
@@ -530,7 +538,8 @@ void PathTracer::receivers_along(const Ray& ray, int scatterings, PathRandom& ra
         Hit hit;
         if (!rays_.closest(walk.ray, hit))
             return;
-        const Material* material = seen_material(walk, hit);
+        SeenMaterial seen;
+        const Material* material = seen_material(walk, hit, seen);
         if (material == nullptr) {
             walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity};
             continue;

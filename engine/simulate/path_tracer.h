@@ -26,6 +26,7 @@ struct Sight {
     ModifierId modifier = void_modifier;
     Direction normal{0, 0, 0};
     double distance_m = infinity;
+    bool varies = false; ///< has a pattern, texture or mixture: neighbours say nothing about it
 };
 
 /// Solution of the rendering equation along paths: shadow rays to the sources at every vertex, scattered rays for all
@@ -72,7 +73,7 @@ private:
     bool scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const;
     bool survives(Walk& walk, PathRandom& random) const;
     void meet_distant(Walk& walk) const;
-    const Material* seen_material(const Walk& walk, const Hit& hit) const;
+    const Material* seen_material(const Walk& walk, Hit& hit, SeenMaterial& seen) const;
     bool meet_surface(Walk& walk, PathRandom& random) const;
     void meet_emitter(Walk& walk, const Hit& hit, const Material& material) const;
     void run(Walk& walk, PathRandom& random) const;
@@ -89,11 +90,12 @@ private:
     AmbientLight ambient_;
     DirectLight direct_;
     MirroredLight mirrored_;
-    DirectLight eye_direct_;                  ///< at what the eye sees
-    DirectLight site_direct_;                 ///< at the sites of the deep field
-    DirectLight quick_direct_;                ///< behind a scattering
-    std::vector<const Material*> materials_;  ///< by modifier
-    std::vector<const Material*> alternates_; ///< by modifier: what eyes see of an Illum; null: nothing
+    DirectLight eye_direct_;                 ///< at what the eye sees
+    DirectLight site_direct_;                ///< at the sites of the deep field
+    DirectLight quick_direct_;               ///< behind a scattering
+    std::vector<const Material*> materials_; ///< by modifier
+    std::vector<ModifierId> alternates_;     ///< by modifier: what eyes see of an Illum; void: nothing
+    VariedMaterials varied_;
     Material white_;
 };
 

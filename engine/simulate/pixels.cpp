@@ -151,6 +151,8 @@ bool PixelField::interpolated(int x, int y, PixelValue& value)
         count = 4;
     }
     const Sight here = task_.sight(x, y);
+    if (here.varies)
+        return false;
     double luminance[4], illuminance[4], luminance_error[4], illuminance_error[4];
     for (std::size_t i = 0; i < count; ++i) {
         const PixelValue& v = around[i]->value;

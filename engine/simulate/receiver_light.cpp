@@ -12,10 +12,12 @@ constexpr int mirrored_rays = 4;
 
 Sight PathTracer::sight(const Ray& ray) const noexcept
 {
+    Sight seen;
     Hit hit;
-    if (!rays_.closest(ray, hit))
-        return {};
-    return {true, hit.modifier, hit.normal, hit.t};
+    seen.varies = varied_.any(); // behind everything may be a sky with a pattern
+    if (rays_.closest(ray, hit))
+        seen = {true, hit.modifier, hit.normal, hit.t, varied_.varies(hit.modifier)};
+    return seen;
 }
 
 Vertex PathTracer::white_vertex(const SurfacePlace& receiver) const

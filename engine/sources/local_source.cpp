@@ -127,8 +127,8 @@ SourceSample sphere_sample(const Sphere& sphere, const Point& from, UnitSquare u
 
 } // namespace
 
-LocalSource::LocalSource(Shape shape, const Material& material)
-    : shape_(std::move(shape)), material_(&material), radiance_(emitted_radiance(material)),
+LocalSource::LocalSource(Shape shape, const Material& material, VariedLight varied)
+    : shape_(std::move(shape)), material_(&material), varied_(std::move(varied)), radiance_(emitted_radiance(material)),
       strength_(photopic(radiance_))
 {
     Box& box = box_;
@@ -176,6 +176,59 @@ LocalSource::LocalSource(Shape shape, const Material& material)
                        : !std::holds_alternative<ConeEmitter>(shape_);
     centre_ = box.centre();
     radius_m_ = 0.5 * box.diagonal();
+    if (varied_.varied != nullptr)
+        strength_ = mean_strength();
+}
+
+Spectrum LocalSource::varied_radiance(const Point& from, const Direction& to_light, double distance_m,
+                                      const Direction& normal) const noexcept
+{
+    PatternPlace place;
+    place.position = from + to_light * distance_m;
+    place.direction = to_light;
+    place.normal = normal;
+    place.distance_m = distance_m;
+    place.to_part = varied_.to_part ? &*varied_.to_part : nullptr;
+    SeenMaterial seen;
+    varied_.varied->look(varied_.modifier, place, seen);
+    return seen.material != nullptr ? emitted_towards(*seen.material, -dot(normal, to_light), -to_light) : Spectrum{};
+}
+
+/// Photopic radiance of a source with patterns, about: what it sends to a few places all around.
+double LocalSource::mean_strength() const noexcept
+{
+    constexpr int places = 64, bits = 6; // spread evenly over directions and over the source
+    double sum = 0;
+    int counted = 0;
+    for (int i = 0; i < places; ++i) {
+        const double u = (i + 0.5) / places;
+        double v = 0;
+        for (int bit = 0; bit < bits; ++bit)
+            v += (i >> bit & 1) * std::ldexp(1.0, -1 - bit);
+        const double z = 2 * u - 1, r = std::sqrt(1 - z * z), away = 10 * radius_m_;
+        const Point from = centre_ + Vec3{r * std::cos(2 * pi * v), r * std::sin(2 * pi * v), z} * away;
+        const SourceSample s = sample(from, {v, u});
+        if (!(s.density_per_sr > 0))
+            continue;
+        sum += photopic(s.radiance);
+        ++counted;
+    }
+    // Never nothing: a pattern may be bright just where no place was tried.
+    constexpr double least_share = 1e-3;
+    return std::fmax(counted > 0 ? sum / counted : 0, least_share * strength_);
+}
+
+Spectrum LocalSource::typical_radiance(const Point& towards) const noexcept
+{
+    if (varied_.varied == nullptr)
+        return radiance_;
+    constexpr double least_share = 0.1; // of the mean: the middle may be dark where the rest is bright
+    const Vec3 way = centre_ - towards;
+    const double distance = length(way);
+    const Direction to_light = distance > 0 ? way / distance : -facing_;
+    const Spectrum middle = varied_radiance(towards, to_light, distance, flat_ ? facing_ : -to_light);
+    const double level = photopic(middle), least = least_share * strength_;
+    return level >= least ? middle : middle + Spectrum::grey(least - level);
 }
 
 double LocalSource::potential(const Point& at, const Direction& normal, bool transmits) const noexcept
@@ -333,11 +386,13 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
 {
     SourceSample s;
     double cosine = 1; // at the source; by solid angle only its sign counts
+    Direction front = facing_;
     const auto by_area = [&](const PointOnSource& p) {
         const Vec3 way = p.point - from;
         s.distance_m = length(way);
         s.to_light = way / s.distance_m;
         cosine = -dot(p.normal, s.to_light);
+        front = p.normal;
         s.density_per_sr = per_solid_angle(area_m2_, s.distance_m, cosine);
     };
     if (const auto* flat = std::get_if<FlatEmitter>(&shape_)) {
@@ -354,11 +409,14 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
                  d.density_per_sr * pick.share,
                  {}};
             cosine = -dot(normal, d.direction);
+            front = normal;
         } else {
             by_area(point_by_area(*flat, u));
         }
     } else if (const auto* ball = std::get_if<SphereEmitter>(&shape_)) {
         s = sphere_sample(ball->sphere, from, u);
+        if (varied_.varied != nullptr)
+            front = normalized(from + s.to_light * s.distance_m - ball->sphere.centre);
     } else if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
         by_area(point_by_area(*ring, seen.frame, u));
     } else if (const auto* cone = std::get_if<ConeEmitter>(&shape_)) {
@@ -368,7 +426,9 @@ SourceSample LocalSource::sample_seen(const Seen& seen, const Point& from, UnitS
         s.density_per_sr = 0;
         return s;
     }
-    if (beam_ == nullptr)
+    if (varied_.varied != nullptr)
+        s.radiance = varied_radiance(from, s.to_light, s.distance_m, front) * beam_share(*material_, s.distance_m);
+    else if (beam_ == nullptr)
         s.radiance = radiance_;
     else if (seen.whole_beam || !emitted_towards(*material_, cosine, -s.to_light).is_black())
         s.radiance = radiance_ * beam_share(*material_, s.distance_m);

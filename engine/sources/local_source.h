@@ -4,7 +4,7 @@
 #include "engine/base/box.h"
 #include "engine/base/spectrum.h"
 #include "engine/sampling/warps.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/varied_materials.h"
 
 #include <optional>
 #include <variant>
@@ -37,11 +37,18 @@ struct ConeEmitter {
     bool inwards;
 };
 
+/// The light of a source whose patterns change it from point to point and from direction to direction.
+struct VariedLight {
+    const VariedMaterials* varied = nullptr; ///< null: it does not change
+    ModifierId modifier = void_modifier;
+    std::optional<Affine> to_part = {}; ///< into the frame of the part that is instanced
+};
+
 /// An emitting surface at a finite distance, instances resolved into the world frame.
 class LocalSource {
 public:
     using Shape = std::variant<FlatEmitter, SphereEmitter, RingEmitter, ConeEmitter>;
-    LocalSource(Shape shape, const Material& material);
+    LocalSource(Shape shape, const Material& material, VariedLight varied = {});
 
     /// Irradiance that the source would give without obstacles, roughly, W/m^2: never 0 where it can give any.
     double potential(const Point& at, const Direction& normal, bool transmits) const noexcept;
@@ -60,6 +67,8 @@ public:
     /// Density with which sample() finds the direction in which `hit` on this source was found.
     double density_per_sr(const Point& from, const Direction& direction, const Hit& hit) const noexcept;
     const Material& material() const noexcept { return *material_; }
+    /// What it sends towards a point, for order and rough sums: of patterns the value at its middle.
+    Spectrum typical_radiance(const Point& towards) const noexcept;
     /// Whether parts of the source lie on both sides of the plane through a point; cones by the ball that holds them.
     bool crosses_horizon(const Point& at, const Direction& normal) const noexcept;
     const Point& centre() const noexcept { return centre_; }
@@ -83,10 +92,14 @@ public:
 private:
     struct Seen;
     bool round() const noexcept { return !std::holds_alternative<FlatEmitter>(shape_); }
+    Spectrum varied_radiance(const Point& from, const Direction& to_light, double distance_m,
+                             const Direction& normal) const noexcept;
+    double mean_strength() const noexcept;
     SourceSample sample_seen(const Seen& seen, const Point& from, UnitSquare u) const noexcept;
     bool in_beam(const Vec3& to_centre, double distance, int widened) const noexcept;
     Shape shape_;
     const Material* material_;
+    VariedLight varied_;
     Spectrum radiance_; ///< along the normal
     Box box_;
     Point centre_;

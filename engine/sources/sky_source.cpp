@@ -22,8 +22,8 @@ Direction direction_at(double band, double sector)
 
 } // namespace
 
-Spectrum distant_radiance(const Scene& scene, const DistantSource& source, ModifierId modifier,
-                          const Direction& direction) noexcept
+Spectrum distant_radiance(const Scene& scene, const VariedMaterials& varied, const DistantSource& source,
+                          ModifierId modifier, const Direction& direction) noexcept
 {
     // Half-angle test by sines of the half difference: exact for the narrowest sun.
     const Vec3 apart = direction - source.to_source;
@@ -33,7 +33,16 @@ Spectrum distant_radiance(const Scene& scene, const DistantSource& source, Modif
     const ResolvedMaterial resolved = resolve(scene, modifier);
     if (resolved.material == nullptr)
         return {};
-    const Spectrum radiance = emitted_radiance(*resolved.material);
+    Spectrum radiance = emitted_radiance(*resolved.material);
+    if (varied.varies(modifier)) {
+        PatternPlace place;
+        place.direction = direction;
+        place.normal = -direction;
+        place.distant = true;
+        SeenMaterial seen;
+        varied.look(modifier, place, seen);
+        radiance = seen.material != nullptr ? emitted_radiance(*seen.material) : Spectrum{};
+    }
     if (resolved.brightness == nullptr)
         return radiance;
     const SkyBrightness& b = *resolved.brightness;
@@ -41,7 +50,8 @@ Spectrum distant_radiance(const Scene& scene, const DistantSource& source, Modif
                                      b.sharp_horizon);
 }
 
-SkySource::SkySource(const Scene& scene, std::vector<const Surface*> wide) : scene_(&scene), wide_(std::move(wide))
+SkySource::SkySource(const Scene& scene, const VariedMaterials& varied, std::vector<const Surface*> wide)
+    : scene_(&scene), varied_(&varied), wide_(std::move(wide))
 {
     double total = 0;
     for (std::size_t band = 0; band < bands; ++band)
@@ -61,7 +71,7 @@ Spectrum SkySource::radiance(const Direction& direction) const noexcept
 {
     Spectrum sum;
     for (const Surface* surface : wide_)
-        sum += distant_radiance(*scene_, scene_->root.sources[surface->index], surface->modifier, direction);
+        sum += distant_radiance(*scene_, *varied_, scene_->root.sources[surface->index], surface->modifier, direction);
     return sum;
 }
 

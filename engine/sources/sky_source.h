@@ -8,14 +8,14 @@
 namespace lightwell {
 
 /// Radiance of one distant source in a direction; black outside its cone.
-Spectrum distant_radiance(const Scene& scene, const DistantSource& source, ModifierId modifier,
-                          const Direction& direction) noexcept;
+Spectrum distant_radiance(const Scene& scene, const VariedMaterials& varied, const DistantSource& source,
+                          ModifierId modifier, const Direction& direction) noexcept;
 
 /// Wide distant sources together (sky and ground): sampled from a table of their luminance over all directions.
 class SkySource {
 public:
     SkySource() = default;
-    SkySource(const Scene& scene, std::vector<const Surface*> wide);
+    SkySource(const Scene& scene, const VariedMaterials& varied, std::vector<const Surface*> wide);
     bool empty() const noexcept { return wide_.empty(); }
     Spectrum radiance(const Direction& direction) const noexcept;
     SourceSample sample(UnitSquare u) const noexcept;
@@ -25,6 +25,7 @@ private:
     std::size_t cell(const Direction& direction) const noexcept;
 
     const Scene* scene_ = nullptr;
+    const VariedMaterials* varied_ = nullptr;
     std::vector<const Surface*> wide_;
     std::vector<double> summed_; ///< photopic radiance of the cells, all of equal solid angle, up to and including each
 };

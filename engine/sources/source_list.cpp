@@ -137,16 +137,22 @@ struct SourceList::Finder {
             const Material* material = resolve(scene, modifier).material;
             if (surface.shape != Shape::source && material != nullptr && is_emitter(*material) &&
                 !emitted_radiance(*material).is_black())
-                add(part, surface, to_world, *material, place_key(path, i));
+                add(part, surface, to_world, *material, light_of(modifier, place, to_world), place_key(path, i));
         }
     }
+    VariedLight light_of(ModifierId modifier, const Place* place, const Affine& to_world) const
+    {
+        if (!list.varied_->varies(modifier))
+            return {};
+        return {list.varied_.get(), modifier, place != nullptr ? std::optional(inverse(to_world)) : std::nullopt};
+    }
     void add(const Part& part, const Surface& surface, const Affine& to_world, const Material& material,
-             std::uint64_t key)
+             VariedLight varied, std::uint64_t key)
     {
         const double scale = similarity_scale(to_world);
         const auto keep = [&](LocalSource::Shape shape) {
             list.lamp_by_place_[key] = static_cast<int>(list.lamps_.size());
-            list.lamps_.emplace_back(std::move(shape), material);
+            list.lamps_.emplace_back(std::move(shape), material, std::move(varied));
         };
         if (surface.shape == Shape::polygon || surface.shape == Shape::mesh) {
             FlatEmitter emitter = surface.shape == Shape::polygon
@@ -175,7 +181,7 @@ struct SourceList::Finder {
     }
 };
 
-SourceList::SourceList(const Scene& scene, const RayQueries& rays)
+SourceList::SourceList(const Scene& scene, const RayQueries& rays) : varied_(std::make_unique<VariedMaterials>(scene))
 {
     Finder finder(scene, *this);
     finder.walk(scene.root, Affine{}, 0, nullptr);
@@ -185,13 +191,13 @@ SourceList::SourceList(const Scene& scene, const RayQueries& rays)
         if (surface.shape != Shape::source)
             continue;
         const DistantSource& source = scene.root.sources[surface.index];
-        const Spectrum radiance = distant_radiance(scene, source, surface.modifier, source.to_source);
+        const Spectrum radiance = distant_radiance(scene, *varied_, source, surface.modifier, source.to_source);
         if (source.full_angle_deg > widest_sun_deg)
             wide.push_back(&surface);
         else if (!radiance.is_black())
             suns_.push_back({source, radiance});
     }
-    sky_ = SkySource(scene, wide);
+    sky_ = SkySource(scene, *varied_, wide);
     guide_ = std::make_unique<Guide>(scene, rays, sky_);
 }
 

@@ -35,6 +35,7 @@ public:
 
 private:
     struct Finder;
+    std::unique_ptr<VariedMaterials> varied_;
     std::vector<LocalSource> lamps_;
     std::unique_ptr<LampTree> lamp_tree_;
     std::vector<SunSource> suns_;

@@ -19,10 +19,11 @@ constexpr std::string_view pattern_types[] = {"brightfunc", "brightdata", "brigh
                                               "colordata",  "colorpict",  "colortext",  "spectrum",
                                               "specfile",   "specfunc",   "specdata",   "specpict"};
 constexpr std::string_view texture_types[] = {"texfunc", "texdata"};
-constexpr std::string_view unmodelled_types[] = {
-    "plastic2",  "metal2",   "trans2",     "plasfunc", "metfunc",  "transfunc", "plasdata",  "metdata",
-    "transdata", "BRTDfunc", "BSDF",       "aBSDF",    "WGMDfunc", "ashik2",    "interface", "mist",
-    "prism1",    "prism2",   "antimatter", "mixfunc",  "mixdata",  "mixtext",   "mixpict"};
+constexpr std::string_view unmodelled_types[] = {"plastic2",  "metal2",   "trans2",   "plasfunc",  "metfunc",
+                                                 "transfunc", "plasdata", "metdata",  "transdata", "BRTDfunc",
+                                                 "BSDF",      "aBSDF",    "WGMDfunc", "ashik2",    "interface",
+                                                 "mist",      "prism1",   "prism2",   "antimatter"};
+constexpr std::string_view mixture_types[] = {"mixfunc", "mixdata", "mixtext", "mixpict"};
 
 template <std::size_t N>
 bool contains(const std::string_view (&list)[N], std::string_view type) noexcept
@@ -164,6 +165,8 @@ TypeClass classify(std::string_view type) noexcept
         return TypeClass::pattern;
     if (contains(texture_types, type))
         return TypeClass::texture;
+    if (contains(mixture_types, type))
+        return TypeClass::mixture;
     if (contains(unmodelled_types, type))
         return TypeClass::unmodelled_material;
     return type == "alias" ? TypeClass::alias : TypeClass::unknown;
@@ -226,6 +229,58 @@ void append_sky_brightness(std::string& text, const std::string& modifier, const
     const Direction& sun = sky.to_sun;
     append_numbers(text,
                    {static_cast<double>(sky.kind), sky.zenith, sky.ground, sky.normalization, sun.x, sun.y, sun.z});
+}
+
+namespace {
+
+/// Letters have no transform among their words: their corner and their two vectors are moved.
+std::vector<double> moved_letters(std::vector<double> numbers, const Affine& map)
+{
+    const auto put = [&](std::size_t at, const Vec3& v) {
+        for (int axis = 0; axis < 3; ++axis)
+            numbers[at + static_cast<std::size_t>(axis)] = v[axis];
+    };
+    const auto get = [&](std::size_t at) { return Vec3{numbers[at], numbers[at + 1], numbers[at + 2]}; };
+    put(0, map.point(get(0)));
+    put(3, map.vector(get(3)));
+    put(6, map.vector(get(6)));
+    return numbers;
+}
+
+std::string quoted(const std::string& word)
+{
+    if (!word.empty() && word.find_first_of(" \t\n\"'") == std::string::npos)
+        return word;
+    const char quote = word.find('"') == std::string::npos ? '"' : '\'';
+    return quote + word + quote;
+}
+
+} // namespace
+
+bool append_varying(std::string& text, const std::string& modifier, const std::string& name,
+                    const PlaceFunction& function, const std::vector<std::string>& mixed,
+                    const std::function<std::string(const std::string&)>& file_word)
+{
+    const PatternText& read = function.text();
+    const bool letters = read.type.ends_with("text");
+    std::vector<std::string> words = read.words;
+    for (const auto& [at, path] : read.files)
+        words[at] = file_word(path);
+    words.insert(words.begin(), mixed.begin(), mixed.end());
+    const auto transform =
+        letters ? std::optional<std::vector<std::string>>(std::in_place) : words_of(function.to_scene());
+    if (transform)
+        words.insert(words.end(), transform->begin(), transform->end());
+    append_head(text, modifier, read.type, name);
+    text += std::to_string(words.size());
+    for (const std::string& word : words)
+        text += ' ' + quoted(word);
+    const std::vector<double> numbers = letters ? moved_letters(read.numbers, function.to_scene()) : read.numbers;
+    text += "\n0\n" + std::to_string(numbers.size());
+    for (const double number : numbers)
+        text += ' ' + shortest(number);
+    text += '\n';
+    return transform.has_value();
 }
 
 } // namespace lightwell::scene_text

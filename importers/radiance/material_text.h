@@ -2,13 +2,15 @@
 
 #include "engine/scene/scene.h"
 #include "importers/radiance/words.h"
+#include "materials/patterns/place_function.h"
 
+#include <functional>
 #include <optional>
 
 namespace lightwell::scene_text {
 
 /// What a type word of the scene language stands for.
-enum class TypeClass { surface, material, pattern, texture, unmodelled_material, alias, unknown };
+enum class TypeClass { surface, material, pattern, texture, mixture, unmodelled_material, alias, unknown };
 TypeClass classify(std::string_view type) noexcept;
 
 /// The material that the arguments describe; numbers are checked by validate_material().
@@ -26,5 +28,12 @@ void append_material(std::string& text, const std::string& modifier, const std::
 inline const std::string sharp_horizon_comment = "#@horizon sharp";
 void append_sky_brightness(std::string& text, const std::string& modifier, const std::string& name,
                            const SkyBrightness& sky);
+/// A pattern, texture or mixture as it was read.
+/// @param mixed  the words of a mixture's foreground and background; empty for the others
+/// @param file_word  what to write for a file that was found at this path
+/// @return       false when its transform cannot be told by words: it is left out
+bool append_varying(std::string& text, const std::string& modifier, const std::string& name,
+                    const PlaceFunction& function, const std::vector<std::string>& mixed,
+                    const std::function<std::string(const std::string&)>& file_word);
 
 } // namespace lightwell::scene_text

@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "importers/radiance/place_surface.h"
+#include "materials/patterns/place_function.h"
 
 #include <cstring>
 
@@ -42,6 +43,22 @@ public:
         vector(s.to_sun);
         number(s.sharp_horizon);
     }
+    void operator()(const Varying& v)
+    {
+        const PatternText& text = v.function->text();
+        number(static_cast<double>(v.kind));
+        number(v.foreground);
+        number(v.background);
+        words(text.type);
+        for (const std::string& word : text.words)
+            words(word);
+        for (const double value : text.numbers)
+            number(value);
+        number(static_cast<double>(std::hash<std::string>{}(text.contents)));
+        const Affine& map = v.function->to_scene();
+        for (const Vec3& column : {map.x, map.y, map.z, map.translation})
+            vector(column);
+    }
     void operator()(const Material& m)
     {
         number(static_cast<double>(m.index()));
@@ -72,6 +89,7 @@ public:
     }
 
 private:
+    void words(const std::string& text) { key.append(text).push_back('\0'); }
     void surface(const Spectrum& s, double a, double b)
     {
         spectrum(s);
@@ -141,22 +159,35 @@ ModifierId ModifierTable::add(Modifier modifier)
     return entry->second;
 }
 
-ModifierId transformed(const Scene& scene, ModifierTable& table, ModifierId id, const Affine& map, bool scale_materials,
-                       const std::string& place)
+ModifierId transformed(const Scene& scene, ModifierTable& table, ModifierId id, const Affine& map,
+                       const MaterialChange& change, const std::string& place)
 {
-    if (id == void_modifier || is_translation(map))
+    if (id == void_modifier || map == Affine{} || (change.keep != nullptr && change.keep->contains(id)))
         return id;
+    if (const bool only_patterns = change.patterns_only || is_translation(map);
+        only_patterns && !resolve(scene, id).varies)
+        return id;
+    const auto again = [&](ModifierId other) { return transformed(scene, table, other, map, change, place); };
     // By index, since the table's additions move the scene's modifiers.
     const auto original = [&]() -> const Modifier& { return scene.modifiers[static_cast<std::size_t>(id)]; };
-    const ModifierId parent = transformed(scene, table, original().parent, map, scale_materials, place);
+    const ModifierId parent = again(original().parent);
     if (const auto* alias = std::get_if<Alias>(&original().what)) {
-        const Alias changed{transformed(scene, table, alias->target, map, scale_materials, place)};
+        const Alias changed{again(alias->target)};
         return table.add({original().name, changed, parent});
     }
+    if (std::holds_alternative<Varying>(original().what)) {
+        Varying varying = std::get<Varying>(original().what);
+        varying.function = std::make_shared<const PlaceFunction>(*varying.function, map);
+        varying.foreground = again(varying.foreground);
+        varying.background = again(varying.background);
+        return table.add({original().name, std::move(varying), parent});
+    }
     if (const auto* sky = std::get_if<SkyBrightness>(&original().what))
-        return table.add({original().name, turned(*sky, map, place), parent});
+        return table.add({original().name, change.patterns_only ? *sky : turned(*sky, map, place), parent});
     if (const auto* material = std::get_if<Material>(&original().what))
-        return table.add({original().name, transformed(*material, map, scale_materials), parent});
+        return table.add({original().name,
+                          change.patterns_only ? *material : transformed(*material, map, change.scale_materials),
+                          parent});
     return table.add({original().name, Inherited{}, parent});
 }
 

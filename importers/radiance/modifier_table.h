@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -63,10 +64,16 @@ private:
 /// @throws InputError when the map would tilt it
 SkyBrightness turned(SkyBrightness sky, const Affine& map, const std::string& place);
 
-/// The modifier as a similarity changes it: beams and skies turn; with `scale_materials` also lengths inside
-/// materials scale (the absorption of a dielectric, the range of a glow), as the xform program does.
+/// What a map does to a modifier.
+struct MaterialChange {
+    bool scale_materials =
+        false;                  ///< lengths inside materials scale: the absorption of a dielectric, the range of a glow
+    bool patterns_only = false; ///< beams and skies stay as they are
+    const std::set<ModifierId>* keep = nullptr; ///< what is not moved: patterns that were defined elsewhere
+};
+/// The modifier as a similarity changes it: patterns move, beams and skies turn, as the xform program does it.
 /// @throws InputError when a sky would tilt
-ModifierId transformed(const Scene& scene, ModifierTable& table, ModifierId id, const Affine& map, bool scale_materials,
-                       const std::string& place);
+ModifierId transformed(const Scene& scene, ModifierTable& table, ModifierId id, const Affine& map,
+                       const MaterialChange& change, const std::string& place);
 
 } // namespace lightwell::scene_text

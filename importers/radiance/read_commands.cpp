@@ -119,7 +119,7 @@ void SceneReader::include(const Xform& xform, OpenFile& file, const std::string&
     const Affine& last = xform.placements.back().map;
     for (auto [name, meaning] : shared.scope->own()) {
         if (meaning.problem < 0)
-            meaning.id = transformed(scene_, table_, meaning.id, last, true, place);
+            meaning.id = transformed(scene_, table_, meaning.id, last, {true, false, &shared.outside}, place);
         target.scope.define(name, meaning);
     }
 }
@@ -147,13 +147,16 @@ SceneReader::Fragment& SceneReader::fragment(const std::vector<std::filesystem::
         fresh->prototype = static_cast<std::uint32_t>(scene_.prototypes.size());
         scene_.prototypes.push_back(std::move(fresh->part));
         fresh->part = {};
-        prototype_changes_.emplace_back(fresh->turns, fresh->scales);
+        prototype_changes_.emplace_back(fresh->turns || !fresh->outside.empty(), fresh->scales);
     }
     return *fragments_[key].emplace_back(std::move(fresh));
 }
 
 void SceneReader::describe(Fragment& fragment) const
 {
+    for (const auto& [name, meaning] : fragment.scope->seen_outside())
+        if (meaning && meaning->id != void_modifier && resolve(scene_, meaning->id).varies)
+            fragment.outside.insert(meaning->id);
     ModifierId last = void_modifier;
     fragment.turns = !fragment.part.sources.empty();
     for (const Surface& surface : fragment.part.surfaces) {
@@ -183,17 +186,20 @@ void SceneReader::place_fragment(Fragment& fragment, const Placement& placement,
                                  const std::optional<ModifierId>& modifier, const std::string& place, Target target)
 {
     const Affine& map = placement.map;
-    const bool materials_change =
-        (fragment.turns && !is_translation(map)) || (fragment.scales && std::fabs(similarity_scale(map) - 1) > 1e-12);
+    const bool materials_change = (!fragment.outside.empty() && !(map == Affine{})) ||
+                                  (fragment.turns && !is_translation(map)) ||
+                                  (fragment.scales && std::fabs(similarity_scale(map) - 1) > 1e-12);
     if (fragment.prototype && !materials_change) {
-        const std::uint32_t prototype = modifier ? with_modifier(*fragment.prototype, *modifier) : *fragment.prototype;
+        const std::uint32_t prototype =
+            modifier ? with_modifier(*fragment.prototype, moved_patterns(*modifier, inverse(map), place))
+                     : *fragment.prototype;
         target.part.add_instance({prototype, map, {}}, prefix.empty() ? part_of(fragment).name : prefix);
         return;
     }
-    expand(part_of(fragment), map, prefix, modifier, place, target.part);
+    expand(fragment, part_of(fragment), map, prefix, modifier, place, target.part);
 }
 
-void SceneReader::expand(const Part& part, const Affine& map, const std::string& prefix,
+void SceneReader::expand(const Fragment& fragment, const Part& part, const Affine& map, const std::string& prefix,
                          const std::optional<ModifierId>& modifier, const std::string& place, Part& to)
 {
     expanded_ += part.surfaces.size();
@@ -208,17 +214,20 @@ void SceneReader::expand(const Part& part, const Affine& map, const std::string&
             const Instance& instance = from.instances[surface.index];
             const auto [turns, scales] = prototype_changes_[instance.prototype];
             if (turns || scales) {
-                expand(scene_.prototypes[instance.prototype], compose(map, instance.to_parent), name, modifier, place,
-                       to);
+                expand(fragment, scene_.prototypes[instance.prototype], compose(map, instance.to_parent), name,
+                       modifier, place, to);
                 continue;
             }
             const std::uint32_t prototype =
-                modifier ? with_modifier(instance.prototype, *modifier) : instance.prototype;
+                modifier ? with_modifier(instance.prototype,
+                                         moved_patterns(*modifier, inverse(compose(map, instance.to_parent)), place))
+                         : instance.prototype;
             to.add_instance({prototype, compose(map, instance.to_parent), {}}, name);
             continue;
         }
         const ModifierId own = modifier.value_or(surface.modifier);
-        const ModifierId changed = modifier ? own : transformed(scene_, table_, own, map, true, place);
+        const ModifierId changed =
+            modifier ? own : transformed(scene_, table_, own, map, {true, false, &fragment.outside}, place);
         add_image(to, from, surface, map, changed, name, 0, report_);
     }
 }

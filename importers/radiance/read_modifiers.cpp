@@ -7,9 +7,9 @@
 
 namespace lightwell::scene_text {
 
-Meaning SceneReader::problem(const std::string& place, const std::string& what)
+Meaning SceneReader::problem(const std::string& place, const std::string& what, const std::string& hint)
 {
-    problems_.push_back({place, what});
+    problems_.push_back({place, what, hint});
     Meaning meaning;
     meaning.problem = static_cast<std::int32_t>(problems_.size() - 1);
     return meaning;
@@ -34,7 +34,9 @@ ModifierId SceneReader::usable(OpenFile& file, const Primitive& primitive, const
         return meaning.id;
     const Problem& found = problems_[static_cast<std::size_t>(meaning.problem)];
     throw InputError{file.words.place(primitive), fmt::format("uses {}, {}", found.place, found.what),
-                     "give it one of plastic metal trans dielectric glass mirror light illum glow spotlight"};
+                     found.hint.empty()
+                         ? "give it one of plastic metal trans dielectric glass mirror light illum glow spotlight"
+                         : found.hint};
 }
 
 void SceneReader::define(OpenFile& file, const Primitive& primitive, Target target)
@@ -44,6 +46,8 @@ void SceneReader::define(OpenFile& file, const Primitive& primitive, Target targ
     const TypeClass kind = classify(primitive.type);
     if (kind == TypeClass::pattern || kind == TypeClass::texture)
         return define_pattern(file, primitive, parent, target);
+    if (kind == TypeClass::mixture)
+        return define_varying(file, primitive, parent, target);
     if (kind == TypeClass::material)
         return define_material(file, primitive, parent, target);
     const std::string place = file.words.place(primitive);
@@ -61,6 +65,8 @@ void SceneReader::define_pattern(OpenFile& file, const Primitive& primitive, con
         sky->sharp_horizon = std::exchange(file.sharp_horizon, false);
         if (parent.problem < 0)
             meaning.id = table_.add({name, *sky, parent.id});
+    } else if (PatternReader::knows(primitive.type)) {
+        return define_varying(file, primitive, parent, target);
     } else {
         // A texture bends the normal, a pattern changes how much light there is: emitters need to know.
         const bool pattern = classify(primitive.type) == TypeClass::pattern;
@@ -69,6 +75,66 @@ void SceneReader::define_pattern(OpenFile& file, const Primitive& primitive, con
                     fmt::format("type {} is not modelled yet; what it modifies is taken as even", primitive.type));
     }
     target.scope.define(std::move(name), meaning);
+}
+
+void SceneReader::define_varying(OpenFile& file, const Primitive& primitive, const Meaning& parent, Target target)
+{
+    const std::string place = file.words.place(primitive);
+    std::string name = decoded_name(primitive.name);
+    Meaning meaning = parent;
+    std::size_t mixed_words = 0;
+    Varying varying;
+    if (classify(primitive.type) == TypeClass::mixture) {
+        varying.kind = Varying::Kind::mixture;
+        mixed_words = 2;
+        if (primitive.words.size() < mixed_words)
+            throw InputError{place, "no foreground and background",
+                             "the first two words of a mixture name the modifiers that it mixes"};
+        for (const auto& [word, id] : {std::pair(0, &varying.foreground), std::pair(1, &varying.background)}) {
+            const Meaning mixed = meaning_of(file, primitive, primitive.words[static_cast<std::size_t>(word)], target);
+            *id = mixed.id;
+            if (mixed.problem >= 0 && meaning.problem < 0)
+                meaning.problem = mixed.problem;
+        }
+    } else if (classify(primitive.type) == TypeClass::texture) {
+        varying.kind = Varying::Kind::texture;
+    }
+    try {
+        varying.function = pattern_function(file, primitive, mixed_words, place);
+        if (meaning.problem < 0)
+            meaning.id = table_.add({name, std::move(varying), parent.id});
+    } catch (const InputError& error) {
+        // Many scenes define more than they use.
+        report_.add(Finding::unsupported, place, std::string(error.what()) + "; surfaces that use it are refused");
+        meaning = problem(place, error.what(), "correct the pattern, or leave it out");
+    }
+    target.scope.define(std::move(name), meaning);
+}
+
+std::shared_ptr<const PlaceFunction> SceneReader::pattern_function(const OpenFile& file, const Primitive& primitive,
+                                                                   std::size_t mixed_words, const std::string& place)
+{
+    PatternReader::Request request;
+    request.type = primitive.type;
+    request.words.assign(primitive.words.begin() + static_cast<std::ptrdiff_t>(mixed_words), primitive.words.end());
+    request.numbers = primitive.numbers;
+    request.place = place;
+    request.find_file = [&](const std::string& name) { return find_quietly(name, file); };
+    request.read_transform = [&](const std::vector<std::string>& words, std::size_t begin) {
+        const std::vector<Placement> placements = read_placements(words, begin, place);
+        if (begin != words.size() || placements.size() != 1)
+            throw InputError{place,
+                             begin != words.size() ? fmt::format("\"{}\" is no transform", words[begin])
+                                                   : "an array (-a) makes more than one copy",
+                             "after the words of a pattern come -t -rx -ry -rz -s -mx -my -mz -i or nothing"};
+        return placements.front().map;
+    };
+    return patterns_.read(request);
+}
+
+ModifierId SceneReader::moved_patterns(ModifierId modifier, const Affine& map, const std::string& place)
+{
+    return transformed(scene_, table_, modifier, map, {false, true, nullptr}, place);
 }
 
 void SceneReader::define_material(OpenFile& file, const Primitive& primitive, Meaning parent, Target target)
@@ -88,6 +154,20 @@ void SceneReader::define_material(OpenFile& file, const Primitive& primitive, Me
     target.scope.define(std::move(name), meaning);
 }
 
+/// An alias keeps the patterns of what it stands for only when it inherits; else it gets those of its own modifier.
+ModifierId SceneReader::aliased(const std::string& name, ModifierId target, const std::optional<ModifierId>& parent)
+{
+    ModifierId meant = target;
+    const auto modifier = [&](ModifierId id) -> const Modifier& {
+        return scene_.modifiers[static_cast<std::size_t>(id)];
+    };
+    while (meant != void_modifier && std::holds_alternative<Alias>(modifier(meant).what))
+        meant = std::get<Alias>(modifier(meant).what).target;
+    if (meant != void_modifier && parent && modifier(meant).parent != *parent)
+        return table_.add({name, modifier(meant).what, *parent});
+    return table_.add({name, Alias{target}, void_modifier});
+}
+
 void SceneReader::define_alias(OpenFile& file, const Primitive& primitive, Target target)
 {
     const std::string_view word = file.words.alias_target(primitive);
@@ -97,17 +177,12 @@ void SceneReader::define_alias(OpenFile& file, const Primitive& primitive, Targe
     const bool inherits = primitive.modifier == "inherit";
     const Meaning parent = inherits ? Meaning{} : meaning_of(file, primitive, primitive.modifier, target);
     if (meaning.problem < 0 && parent.problem < 0) {
-        // An alias keeps the pattern of what it stands for only when it inherits; else it gets its own modifier.
         const ResolvedMaterial resolved = resolve(scene_, meaning.id);
-        const bool other_pattern =
-            resolved.material != nullptr && !inherits && resolved.brightness != resolve(scene_, parent.id).brightness;
         if (parent.pattern_left_out && resolved.material != nullptr && is_emitter(*resolved.material))
             meaning = problem(file.words.place(primitive),
                               "an emitter whose brightness is set by a pattern that is not modelled yet");
-        else if (other_pattern)
-            meaning.id = table_.add({name, *resolved.material, parent.id});
         else
-            meaning.id = table_.add({name, Alias{meaning.id}, void_modifier});
+            meaning.id = aliased(name, meaning.id, inherits ? std::nullopt : std::optional(parent.id));
     } else if (meaning.problem < 0) {
         meaning = parent;
     }

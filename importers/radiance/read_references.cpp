@@ -57,9 +57,8 @@ Affine only_placement(const Primitive& primitive, const std::string& place)
 
 } // namespace
 
-fs::path SceneReader::find(const std::string& name, const OpenFile& file, const std::string& place) const
+std::optional<fs::path> SceneReader::find_quietly(const fs::path& wanted, const OpenFile& file) const
 {
-    const fs::path wanted = text_of_compiled(name);
     std::vector<fs::path> tried{wanted};
     if (wanted.is_relative()) {
         tried = {file.path.parent_path() / wanted, first_file_.parent_path() / wanted, wanted};
@@ -69,6 +68,14 @@ fs::path SceneReader::find(const std::string& name, const OpenFile& file, const 
     for (const fs::path& candidate : tried)
         if (is_file(candidate))
             return candidate;
+    return std::nullopt;
+}
+
+fs::path SceneReader::find(const std::string& name, const OpenFile& file, const std::string& place) const
+{
+    const fs::path wanted = text_of_compiled(name);
+    if (const auto found = find_quietly(wanted, file))
+        return *found;
     const bool compiled = wanted != fs::path(name);
     throw InputError{
         place,
@@ -93,7 +100,7 @@ void SceneReader::add_instance(OpenFile& file, const Primitive& primitive, Targe
     }
     std::uint32_t prototype = known->second;
     if (const ModifierId modifier = usable(file, primitive, meaning); modifier != void_modifier)
-        prototype = with_modifier(prototype, modifier);
+        prototype = with_modifier(prototype, moved_patterns(modifier, inverse(map), place));
     target.part.add_instance({prototype, map, {}}, decoded_name(primitive.name));
 }
 
@@ -157,7 +164,8 @@ void SceneReader::add_mesh(OpenFile& file, const Primitive& primitive, Target ta
     if (map == Affine{})
         target.part.add_mesh(mesh(path), modifier, decoded_name(primitive.name));
     else
-        target.part.add_instance({prototype_of_mesh(path, modifier), map, {}}, decoded_name(primitive.name));
+        target.part.add_instance({prototype_of_mesh(path, moved_patterns(modifier, inverse(map), place)), map, {}},
+                                 decoded_name(primitive.name));
 }
 
 std::uint32_t SceneReader::prototype_of_mesh(const fs::path& path, ModifierId modifier)

@@ -3,6 +3,7 @@
 #include "importers/radiance/modifier_table.h"
 #include "importers/radiance/transform_words.h"
 #include "importers/radiance/words.h"
+#include "materials/patterns/pattern_reader.h"
 
 #include <filesystem>
 #include <map>
@@ -43,10 +44,11 @@ private:
         std::optional<std::uint32_t> prototype; ///< set when it is shared by instances
         std::unique_ptr<Scope> scope;
         bool turns = false, scales = false; ///< has beams, skies or distant sources; materials that know lengths
+        std::set<ModifierId> outside = {};  ///< patterns of the text around it, which do not move along
     };
     /// What a problem a name has when it is used.
     struct Problem {
-        std::string place, what;
+        std::string place, what, hint;
     };
     struct Xform {
         std::vector<Placement> placements;
@@ -64,8 +66,13 @@ private:
     void define(OpenFile& file, const Primitive& primitive, Target target);
     void define_alias(OpenFile& file, const Primitive& primitive, Target target);
     void define_pattern(OpenFile& file, const Primitive& primitive, const Meaning& parent, Target target);
+    void define_varying(OpenFile& file, const Primitive& primitive, const Meaning& parent, Target target);
+    std::shared_ptr<const PlaceFunction> pattern_function(const OpenFile& file, const Primitive& primitive,
+                                                          std::size_t mixed_words, const std::string& place);
+    ModifierId aliased(const std::string& name, ModifierId target, const std::optional<ModifierId>& parent);
+    ModifierId moved_patterns(ModifierId modifier, const Affine& map, const std::string& place);
     void define_material(OpenFile& file, const Primitive& primitive, Meaning parent, Target target);
-    Meaning problem(const std::string& place, const std::string& what);
+    Meaning problem(const std::string& place, const std::string& what, const std::string& hint = {});
     Meaning meaning_of(OpenFile& file, const Primitive& primitive, std::string_view name, Target target);
     ModifierId usable(OpenFile& file, const Primitive& primitive, const Meaning& meaning);
 
@@ -77,6 +84,7 @@ private:
     std::uint32_t with_modifier(std::uint32_t prototype, ModifierId modifier);
     std::shared_ptr<const Mesh> mesh(const std::filesystem::path& path);
     std::filesystem::path find(const std::string& name, const OpenFile& file, const std::string& place) const;
+    std::optional<std::filesystem::path> find_quietly(const std::filesystem::path& wanted, const OpenFile& file) const;
 
     // !xform
     void run(OpenFile& file, const std::string& command, const std::string& place, Target target);
@@ -89,7 +97,7 @@ private:
     void describe(Fragment& fragment) const;
     void place_fragment(Fragment& fragment, const Placement& placement, const std::string& prefix,
                         const std::optional<ModifierId>& modifier, const std::string& place, Target target);
-    void expand(const Part& part, const Affine& map, const std::string& prefix,
+    void expand(const Fragment& fragment, const Part& part, const Affine& map, const std::string& prefix,
                 const std::optional<ModifierId>& modifier, const std::string& place, Part& to);
     const Part& part_of(const Fragment& fragment) const;
 
@@ -98,6 +106,7 @@ private:
     Scene scene_;
     ModifierTable table_;
     Scope scope_;
+    PatternReader patterns_;
     std::vector<Problem> problems_;
     std::vector<std::pair<bool, bool>> prototype_changes_; ///< for each prototype: Fragment's turns and scales
     std::map<std::filesystem::path, std::uint32_t> file_prototypes_;

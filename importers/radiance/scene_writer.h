@@ -73,6 +73,7 @@ private:
     /// Makes sure that the modifier's name means it from here on, and returns the word for it.
     const std::string& use(Output& out, ModifierId id);
     void define(Output& out, ModifierId id);
+    void define_varying(Output& out, const Modifier& modifier, const Varying& varying);
 
     Bindings effective_bindings(std::uint32_t prototype, const Bindings& own, const Bindings& outer) const;
     bool sends_light(ModifierId modifier) const;

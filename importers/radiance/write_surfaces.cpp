@@ -32,7 +32,7 @@ const std::string& SceneWriter::use(Output& out, ModifierId id)
     std::string word = "void";
     // A place-holder that nothing stands in for is invisible, as `void` is; other programs take no alias of `void`.
     const ResolvedMaterial resolved = resolve(changed_, id);
-    if (resolved.material != nullptr || resolved.brightness != nullptr) {
+    if (resolved.material != nullptr || resolved.brightness != nullptr || resolved.varies) {
         const std::string& name = changed_.modifiers[static_cast<std::size_t>(id)].name;
         const auto known = out.defined.find(name);
         if (known == out.defined.end() || known->second != id)
@@ -57,15 +57,34 @@ void SceneWriter::define(Output& out, ModifierId id)
     } else if (const auto* sky = std::get_if<SkyBrightness>(&modifier.what)) {
         const std::string parent = use(out, modifier.parent);
         append_sky_brightness(out.file.text(), parent, name, *sky);
+    } else if (const auto* varying = std::get_if<Varying>(&modifier.what)) {
+        define_varying(out, modifier, *varying);
     } else {
         const auto* alias = std::get_if<Alias>(&modifier.what);
         const ModifierId target = alias != nullptr && alias->target != void_modifier ? alias->target : modifier.parent;
         const std::string target_word = use(out, target);
-        const bool has_pattern = resolve(changed_, target).brightness != nullptr;
+        const ResolvedMaterial resolved = resolve(changed_, target);
+        const bool has_pattern = resolved.brightness != nullptr || resolved.varies;
         out.file.text() += (has_pattern ? "inherit alias " : "void alias ") + name + ' ' + target_word + '\n';
     }
     out.defined[modifier.name] = id;
     out.busy.erase(id);
+}
+
+void SceneWriter::define_varying(Output& out, const Modifier& modifier, const Varying& varying)
+{
+    std::vector<std::string> mixed;
+    if (varying.kind == Varying::Kind::mixture)
+        for (const ModifierId part : {varying.foreground, varying.background})
+            mixed.push_back(use(out, part));
+    const std::string parent = use(out, modifier.parent);
+    // Files stay where they are; the text names them from its own folder.
+    const auto file_word = [&](const std::string& path) {
+        return std::filesystem::proximate(path, std::filesystem::absolute(file_).parent_path()).string();
+    };
+    if (!append_varying(out.file.text(), parent, encoded_name(modifier.name), *varying.function, mixed, file_word))
+        report_.add(Finding::approximated, modifier.name,
+                    "pattern under a map that is no similarity: written without its transform");
 }
 
 void SceneWriter::write_part(Output& out, const Part& part, const Place& place)
@@ -84,7 +103,7 @@ void SceneWriter::write_surface(Output& out, const Part& part, const Surface& su
     ModifierId modifier = bound_modifier(scene_, surface.modifier, place.bindings);
     const std::string name = place.prefix + surface.name;
     if (place.expanded)
-        modifier = transformed(changed_, table_, modifier, place.map, false, name);
+        modifier = transformed(changed_, table_, modifier, place.map, {}, name);
     if (surface.shape == Shape::mesh)
         return write_mesh(out, part, surface, modifier, name, place.map);
     if (!place.expanded) {

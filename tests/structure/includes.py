@@ -12,6 +12,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 BASE_ROWS = [
     {"engine/base"},
     {"engine/sampling", "engine/pictures", "engine/sky"},
+    {"materials/functions"},
+    {"materials/patterns"},
     {"materials"},
     {"engine/scene"},
     {"engine/geometry"},

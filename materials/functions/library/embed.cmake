@@ -1,0 +1,12 @@
+# Compiles library/*.cal into the program as one array of texts, in the order of the names; sets FUNCTION_TEXT_SOURCE.
+file(GLOB function_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.cal)
+list(SORT function_files)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${function_files})
+set(FUNCTION_TEXTS "")
+foreach(function_file ${function_files})
+    cmake_path(GET function_file FILENAME name)
+    file(READ ${function_file} content)
+    string(APPEND FUNCTION_TEXTS "        {\"${name}\", R\"~cal~(${content})~cal~\"},\n")
+endforeach()
+set(FUNCTION_TEXT_SOURCE ${CMAKE_CURRENT_BINARY_DIR}/function_text.cpp)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/function_text.cpp.in ${FUNCTION_TEXT_SOURCE} @ONLY)

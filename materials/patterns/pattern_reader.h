@@ -1,0 +1,42 @@
+#pragma once
+
+#include "materials/patterns/place_function.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+
+namespace lightwell {
+
+/// Makes patterns, textures and mixtures of the words and numbers that scene text has for them. Files are read once,
+/// however many patterns name them.
+class PatternReader {
+public:
+    /// Where a file of that name is; nothing when there is none.
+    using FindFile = std::function<std::optional<std::filesystem::path>(const std::string& name)>;
+    /// The transform that the words from `begin` on stand for.
+    using ReadTransform = std::function<Affine(const std::vector<std::string>& words, std::size_t begin)>;
+
+    struct Request {
+        std::string type; ///< `colorfunc`, ...; mixtures without their two modifiers
+        std::vector<std::string> words;
+        std::vector<double> numbers;
+        std::string place; ///< file, line and entity, for messages
+        FindFile find_file;
+        ReadTransform read_transform;
+    };
+    /// @throws InputError with the place: words or numbers missing, files missing or damaged, functions that are not
+    ///         defined
+    std::shared_ptr<const PlaceFunction> read(const Request& request);
+    static bool knows(std::string_view type) noexcept;
+
+private:
+    class Build;
+    std::map<std::filesystem::path, std::shared_ptr<const std::string>> texts_;
+    std::map<std::filesystem::path, std::shared_ptr<const DataTable>> tables_;
+    std::map<std::filesystem::path, std::shared_ptr<const PictureTable>> pictures_;
+    std::map<std::filesystem::path, std::shared_ptr<const PolygonFont>> fonts_;
+    std::map<std::string, std::shared_ptr<const Definitions>> definitions_; ///< by the function files named together
+};
+
+} // namespace lightwell

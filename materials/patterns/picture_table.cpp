@@ -1,0 +1,101 @@
+#include "materials/patterns/picture_table.h"
+
+#include "engine/base/errors.h"
+#include "engine/base/files.h"
+#include "engine/pictures/exr.h"
+#include "engine/pictures/jpeg.h"
+#include "engine/pictures/png.h"
+#include "engine/pictures/rgbe.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lightwell {
+namespace {
+
+PictureTable of_channels(const Picture& picture, const std::string& file)
+{
+    for (const char* channel : {"R", "G", "B"})
+        if (!picture.channels.contains(channel))
+            throw InputError{file, std::string("the picture has no channel ") + channel, "give one with R, G and B"};
+    std::vector<Spectrum> pixels;
+    const auto &r = picture.channels.at("R"), &g = picture.channels.at("G"), &b = picture.channels.at("B");
+    for (std::size_t i = 0; i < r.size(); ++i)
+        pixels.push_back({r[i], g[i], b[i]});
+    return {picture.width, picture.height, std::move(pixels)};
+}
+
+PictureTable of_display(const DisplayPicture& picture)
+{
+    std::array<double, 256> linear;
+    for (std::size_t i = 0; i < linear.size(); ++i)
+        linear[i] = srgb_to_linear(static_cast<double>(i) / 255);
+    std::vector<Spectrum> pixels;
+    for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
+        pixels.push_back(from_rec709({linear[picture.rgb[i]], linear[picture.rgb[i + 1]], linear[picture.rgb[i + 2]]}));
+    return {picture.width, picture.height, std::move(pixels)};
+}
+
+/// The step between two middles of pixels and how far within it; a single row or column is the same everywhere.
+struct Step {
+    int low, high;
+    double x;
+};
+
+Step step_of(double place, int count) noexcept
+{
+    if (count < 2)
+        return {0, 0, 0};
+    const double step = std::clamp(std::floor(place), 0.0, count - 2.0);
+    return {static_cast<int>(step), static_cast<int>(step) + 1, place - step};
+}
+
+Spectrum between(const Spectrum& low, const Spectrum& high, double x) noexcept
+{
+    if (x > 2)
+        return (high * 2 - low) / (x - 1);
+    if (x < -1)
+        return (low * 2 - high) / -x;
+    return low * (1 - x) + high * x;
+}
+
+} // namespace
+
+PictureTable PictureTable::read(const std::filesystem::path& file)
+{
+    std::string start;
+    {
+        const MappedFile mapped(file);
+        start = mapped.bytes().substr(0, 8);
+    }
+    if (start.starts_with("#?"))
+        return of_channels(read_rgbe(file), file.string());
+    if (start.starts_with("\x76\x2f\x31\x01"))
+        return of_channels(read_exr(file), file.string());
+    if (start.starts_with("\x89PNG"))
+        return of_display(read_png(file));
+    if (start.starts_with("\xff\xd8\xff"))
+        return of_display(read_jpeg(file));
+    throw InputError{file.string(), "no picture of a kind that is read",
+                     "Radiance, OpenEXR, PNG and JPEG pictures are"};
+}
+
+PictureTable::PictureTable(int width, int height, std::vector<Spectrum> pixels)
+    : width_(width), height_(height), pixels_per_unit_(std::min(width, height)), pixels_(std::move(pixels))
+{
+}
+
+Spectrum PictureTable::at(double u, double v) const noexcept
+{
+    if (!std::isfinite(u) || !std::isfinite(v))
+        return {};
+    const Step column = step_of(u * pixels_per_unit_ - 0.5, width_);
+    const Step row = step_of(v * pixels_per_unit_ - 0.5, height_); // from below
+    const auto across = [&](int y) {
+        return between(pixel(column.low, height_ - 1 - y), pixel(column.high, height_ - 1 - y), column.x);
+    };
+    return between(across(row.low), across(row.high), row.x);
+}
+
+} // namespace lightwell

@@ -1,0 +1,60 @@
+#include "materials/patterns/spectral_colour.h"
+
+#include "engine/base/vector.h"
+
+namespace lightwell {
+namespace {
+
+double lobe(double nm, double peak, double below, double above) noexcept
+{
+    const double t = (nm - peak) / (nm < peak ? below : above);
+    return std::exp(-0.5 * t * t);
+}
+
+Vec3 colour_matching(double nm) noexcept
+{
+    return {1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) -
+                0.065 * lobe(nm, 501.1, 20.4, 26.2),
+            0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1),
+            1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
+}
+
+Vec3 of_chromaticity(double x, double y) noexcept
+{
+    return {x / y, 1, (1 - x - y) / y};
+}
+
+/// The rows of the map from X, Y, Z to the engine's primaries, up to a factor each: the weights are scaled afterwards.
+struct FromXyz {
+    Vec3 r, g, b;
+};
+FromXyz from_xyz() noexcept
+{
+    // The engine's primaries, see engine/base/spectrum.h.
+    const Vec3 red = of_chromaticity(.64, .33), green = of_chromaticity(.29, .60), blue = of_chromaticity(.15, .06);
+    const double volume = dot(red, cross(green, blue));
+    return {cross(green, blue) / volume, cross(blue, red) / volume, cross(red, green) / volume};
+}
+
+} // namespace
+
+const std::vector<SpectralWeight>& spectral_weights()
+{
+    static const std::vector<SpectralWeight> weights = [] {
+        constexpr double first_nm = 380, last_nm = 780, step_nm = 10;
+        const FromXyz rows = from_xyz();
+        std::vector<SpectralWeight> all;
+        Spectrum total;
+        for (double nm = first_nm; nm <= last_nm; nm += step_nm) {
+            const Vec3 xyz = colour_matching(nm);
+            all.push_back({nm, {dot(rows.r, xyz), dot(rows.g, xyz), dot(rows.b, xyz)}});
+            total += all.back().weight;
+        }
+        for (SpectralWeight& w : all)
+            w.weight = {w.weight.r / total.r, w.weight.g / total.g, w.weight.b / total.b};
+        return all;
+    }();
+    return weights;
+}
+
+} // namespace lightwell
