@@ -316,7 +316,9 @@ MirrorSet::MirrorSet(const Scene& scene)
     visit_placed(
         scene, [](const Material& material) { return std::holds_alternative<Mirror>(material); },
         [&](const PlacedSurface& placed) {
-            builder.add(placed);
+            // A mirror with a pattern or a texture has no one image: scattered rays find what it shows.
+            if (!resolve(scene, placed.modifier).varies)
+                builder.add(placed);
             return builder.looked_at < most_looked_at;
         });
     complete_ = builder.looked_at < most_looked_at;

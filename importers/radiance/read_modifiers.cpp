@@ -164,7 +164,7 @@ ModifierId SceneReader::aliased(const std::string& name, ModifierId target, cons
     while (meant != void_modifier && std::holds_alternative<Alias>(modifier(meant).what))
         meant = std::get<Alias>(modifier(meant).what).target;
     if (meant != void_modifier && parent && modifier(meant).parent != *parent)
-        return table_.add({name, modifier(meant).what, *parent});
+        return std::visit([&](const auto& what) { return table_.add({name, what, *parent}); }, modifier(meant).what);
     return table_.add({name, Alias{target}, void_modifier});
 }
 
