@@ -67,6 +67,7 @@ private:
     AmbientEffort effort_;
     DeepField deep_;
     AmbientCache cache_;
+    SecondarySources secondary_;
     PathTracer tracer_;
     std::optional<KeptAmbient> kept_;
     std::size_t records_kept_ = 0; ///< of others, taken from the file

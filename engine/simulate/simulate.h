@@ -6,6 +6,7 @@
 #include "engine/direct/settings.h"
 #include "engine/pictures/picture.h"
 #include "engine/scene/scene.h"
+#include "engine/sources/secondary_sources.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -119,6 +120,7 @@ struct Preparation {
     int virtual_depth = 2;       ///< mirrors one after the other that virtual sources stand behind; 0: none
     bool virtual_sources = true; ///< false: as a depth of 0
     DirectSettings direct = {};
+    SecondarySettings secondary = {};
 };
 
 struct SimulationParts;
