@@ -52,8 +52,8 @@ public:
     const PathTracer& tracer() const noexcept { return tracer_; }
     WorkCounts work() const noexcept
     {
-        return {deep_.size(), deep_.bright().size(), cache_.records().size(), deep_kept_ ? deep_.size() : 0,
-                records_kept_};
+        return {deep_.size(),  deep_.bright().size(), cache_.records().size(), deep_kept_ ? deep_.size() : 0,
+                records_kept_, secondary_.size()};
     }
     const DeepField& deep() const noexcept { return deep_; }
     const AmbientCache& cache() const noexcept { return cache_; }
@@ -71,7 +71,7 @@ private:
     PathTracer tracer_;
     std::optional<KeptAmbient> kept_;
     std::size_t records_kept_ = 0; ///< of others, taken from the file
-    bool deep_kept_ = false;
+    bool deep_kept_ = false, collected_ = false;
 };
 
 } // namespace lightwell

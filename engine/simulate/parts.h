@@ -16,14 +16,14 @@ struct SimulationParts {
     SourceList sources;
     VirtualSources virtual_sources;
     SecondarySources secondary; ///< whose light is not known yet
-    PathTracer tracer; ///< plain
+    PathTracer tracer;          ///< plain
     Box box;
     Preparation preparation;
 
     SimulationParts(Scene&& s, const Preparation& p)
         : scene(with_open_sheets(std::move(s), p.secondary)), rays(scene), sources(scene, rays),
-          virtual_sources(scene, sources, {p.virtual_sources ? p.virtual_depth : 0}),
-          secondary(scene, p.secondary), tracer(scene, rays, sources, virtual_sources, {}, p.direct), box(bounds(scene)), preparation(p)
+          virtual_sources(scene, sources, {p.virtual_sources ? p.virtual_depth : 0}), secondary(scene, p.secondary),
+          tracer(scene, rays, sources, virtual_sources, {}, p.direct), box(bounds(scene)), preparation(p)
     {
     }
 };

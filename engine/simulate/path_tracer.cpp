@@ -67,7 +67,7 @@ struct PathTracer::Walk {
     double way_m = 0;                        ///< from there
     int scatterings = 0;
     double aim_weight = 1; ///< of an arrival's light from where it is scattered first
-    bool aimed = false; ///< an arrival sent where light comes from: what emits in plain view is not its business
+    bool aimed = false;    ///< an arrival sent where light comes from: what emits in plain view is not its business
     bool straight_from_receiver = false; ///< of an arrival, before anything bends it
     bool met_lamp = false;               ///< of an arrival: with nothing in between
     bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
@@ -495,8 +495,7 @@ Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direct
     const auto cosine_density = [&](const Direction& d) {
         return cosine_hemisphere_density_per_sr(dot(d, receiver.normal));
     };
-    const double weight =
-        aim ? 1 - shadow_ray_weight(aim.density_per_sr(direction), cosine_density(direction)) : 1;
+    const double weight = aim ? 1 - shadow_ray_weight(aim.density_per_sr(direction), cosine_density(direction)) : 1;
     Walk walk = arriving_walk(vertex, direction, weight);
     walk.shares = shares;
     walk.dependences = &dependences;

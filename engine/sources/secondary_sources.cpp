@@ -20,6 +20,9 @@ constexpr int rays_a_side = 128;
 constexpr double least_share = 0.1;
 /// A piece that a receiver sees edge-on or from the side by its middle may still show a part.
 constexpr double least_cosine = 0.05;
+/// Where one side of an opening is this many times as bright as the other, what comes through matters more than the
+/// surfaces around; else rays that follow the cosine find as much light anywhere.
+constexpr double worth_aiming = 8;
 
 int stratum(double x, int count)
 {
@@ -44,6 +47,9 @@ void check_names(const Scene& scene, const std::vector<std::string>& names)
                              "its material is " + (material == nullptr ? "void" : type_name(*material)) +
                                  ", expected glass or illum",
                              "name the modifier of a window pane, or put an illum before the opening"};
+        if (find_portals(scene, {name}).empty())
+            throw InputError{"secondary source \"" + name + "\"", "no flat surface has this modifier",
+                             "give it to a polygon across the opening"};
     }
 }
 
@@ -76,7 +82,7 @@ double piece_edge_m(const std::vector<Portal>& openings, std::size_t most)
 
 std::string to_text(const SecondarySettings& settings)
 {
-    if (!settings.on)
+    if (settings.none())
         return "none";
     std::string text = settings.modifiers.empty() ? "auto" : "";
     for (const std::string& name : settings.modifiers)
@@ -97,9 +103,10 @@ void SecondarySources::Piece::turn() noexcept
 
 SecondarySources::SecondarySources(const Scene& scene, const SecondarySettings& settings)
 {
-    if (!settings.on)
-        return;
     check_names(scene, settings.modifiers);
+    if (settings.none())
+        return;
+    only_unequal_ = settings.modifiers.empty();
     std::vector<Portal> openings = find_portals(scene, settings.modifiers);
     if (openings.size() > most_pieces)
         openings.resize(most_pieces);
@@ -123,9 +130,46 @@ SecondarySources::SecondarySources(const Scene& scene, const SecondarySettings& 
     }
 }
 
+/// Sums over the rays of one side.
+struct SecondarySources::Collected {
+    std::array<double, strata * strata> sums{}, counts{};
+    double mean = 0;
+
+    /// Few rays a stratum: each also counts, less, in the eight around.
+    float around(int x, int y) const noexcept
+    {
+        constexpr double neighbour = 0.25;
+        double sum = 0, count = 0;
+        for (int v = std::max(0, y - 1); v <= std::min(strata - 1, y + 1); ++v)
+            for (int u = std::max(0, x - 1); u <= std::min(strata - 1, x + 1); ++u) {
+                const double share = u == x && v == y ? 1 : neighbour;
+                sum += share * sums[static_cast<std::size_t>(v * strata + u)];
+                count += share * counts[static_cast<std::size_t>(v * strata + u)];
+            }
+        return static_cast<float>(std::max(count > 0 ? sum / count : 0, least_share * mean));
+    }
+};
+
+SecondarySources::Collected SecondarySources::collect_side(const Piece& side, std::uint64_t key,
+                                                           const RadianceQuery& query, std::uint64_t seed)
+{
+    Collected light;
+    for (std::uint32_t n = 0; n < rays_a_side; ++n) {
+        PathRandom random(mix_bits(seed, collect_salt), key, n);
+        const UnitSquare place = random.pair();
+        const Direction local = cosine_hemisphere(random.pair());
+        const Point from = side.corner + side.edge_x * place.u + side.edge_y * place.v;
+        const double found = photopic(query.scattered_radiance(from, -side.frame.to_world(local), random));
+        const auto cell = static_cast<std::size_t>(stratum(local.y, strata) * strata + stratum(local.x, strata));
+        light.sums[cell] += found;
+        light.counts[cell] += 1;
+        light.mean += found / rays_a_side;
+    }
+    return light;
+}
+
 void SecondarySources::collect(const RadianceQuery& query, std::uint64_t seed, int threads)
 {
-    // Both sides: light goes from the brighter one to the other.
     std::vector<Piece> sides = pieces_;
     for (const Piece& piece : pieces_) {
         sides.push_back(piece);
@@ -133,44 +177,33 @@ void SecondarySources::collect(const RadianceQuery& query, std::uint64_t seed, i
     }
     std::vector<double> means(sides.size());
     parallel_for(sides.size(), threads, [&](std::size_t i) {
-        Piece& side = sides[i];
-        std::array<double, strata * strata> sums{}, counts{};
-        for (std::uint32_t n = 0; n < rays_a_side; ++n) {
-            PathRandom random(mix_bits(seed, collect_salt), i, n);
-            const UnitSquare place = random.pair();
-            const Direction local = cosine_hemisphere(random.pair());
-            const Direction travel = side.frame.to_world(local);
-            const Point from = side.corner + side.edge_x * place.u + side.edge_y * place.v;
-            const double found = photopic(query.scattered_radiance(from, -travel, random));
-            const auto cell = static_cast<std::size_t>(stratum(local.y, strata) * strata + stratum(local.x, strata));
-            sums[cell] += found;
-            counts[cell] += 1;
-            means[i] += found / rays_a_side;
-        }
-        // Few rays a stratum: each also counts, less, in the eight around.
+        const Collected light = collect_side(sides[i], i, query, seed);
+        means[i] = light.mean;
         for (int y = 0; y < strata; ++y)
-            for (int x = 0; x < strata; ++x) {
-                double sum = 0, count = 0;
-                for (int v = std::max(0, y - 1); v <= std::min(strata - 1, y + 1); ++v)
-                    for (int u = std::max(0, x - 1); u <= std::min(strata - 1, x + 1); ++u) {
-                        const double share = u == x && v == y ? 1 : 0.25;
-                        sum += share * sums[static_cast<std::size_t>(v * strata + u)];
-                        count += share * counts[static_cast<std::size_t>(v * strata + u)];
-                    }
-                side.radiance[static_cast<std::size_t>(y * strata + x)] =
-                    static_cast<float>(std::max(count > 0 ? sum / count : 0, least_share * means[i]));
-            }
+            for (int x = 0; x < strata; ++x)
+                sides[i].radiance[static_cast<std::size_t>(y * strata + x)] = light.around(x, y);
     });
+    keep_brighter(sides, means);
+}
+
+/// @param sides  of the pieces along their normals, then against them
+void SecondarySources::keep_brighter(std::vector<Piece>& sides, const std::vector<double>& means)
+{
+    const std::size_t count = pieces_.size();
     std::vector<double> along(openings_), against(openings_);
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         along[opening_of_[i]] += means[i];
-        against[opening_of_[i]] += means[pieces_.size() + i];
+        against[opening_of_[i]] += means[count + i];
     }
     sending_.clear();
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-        const std::size_t side = along[opening_of_[i]] >= against[opening_of_[i]] ? i : pieces_.size() + i;
-        if (means[side] > 0)
-            sending_.push_back(sides[side]);
+    sending_openings_ = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double bright = std::max(along[opening_of_[i]], against[opening_of_[i]]),
+                     dark = std::min(along[opening_of_[i]], against[opening_of_[i]]);
+        if (!(bright > 0) || (only_unequal_ && bright < worth_aiming * dark))
+            continue;
+        sending_openings_ += i == 0 || opening_of_[i] != opening_of_[i - 1] ? 1 : 0;
+        sending_.push_back(sides[along[opening_of_[i]] == bright ? i : count + i]);
     }
 }
 
@@ -231,7 +264,7 @@ Scene with_open_sheets(Scene scene, const SecondarySettings& settings)
 {
     for (const std::string& name : settings.modifiers) {
         Modifier& modifier = scene.modifiers[static_cast<std::size_t>(named(scene, name))];
-        const auto* material = std::get_if<Material>(&modifier.what);
+        const Material* material = resolve(scene, named(scene, name)).material;
         const Illum* illum = material != nullptr ? std::get_if<Illum>(material) : nullptr;
         if (illum == nullptr)
             continue;

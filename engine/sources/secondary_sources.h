@@ -13,8 +13,12 @@ namespace lightwell {
 
 /// Which openings rays are aimed at.
 struct SecondarySettings {
-    bool on = true;
-    std::vector<std::string> modifiers = {}; ///< of panes (glass) and of sheets (illum), none: every large flat pane of glass
+    bool on = true;                          ///< false: none, though named sheets stay open
+    bool all_panes = false;                  ///< large flat panes of glass that much more light comes through from one
+                                             ///< side than from the other
+    std::vector<std::string> modifiers = {}; ///< of panes (glass) and of sheets (illum)
+
+    bool none() const noexcept { return !on || (!all_panes && modifiers.empty()); }
 };
 
 /// "auto", "none" or the names with commas.
@@ -32,12 +36,14 @@ public:
     /// @throws InputError for a modifier that does not exist or is no opening
     SecondarySources(const Scene& scene, const SecondarySettings& settings);
 
+    /// Light of both sides of all openings; the brighter side of each sends to the other.
     void collect(const RadianceQuery& query, std::uint64_t seed, int threads);
 
     static constexpr std::size_t most_pieces = 64;
     /// Whether there is no light to aim at.
     bool empty() const noexcept { return sending_.empty(); }
-    std::size_t openings() const noexcept { return openings_; }
+    /// Openings that send light.
+    std::size_t size() const noexcept { return sending_openings_; }
 
     /// A choice among the pieces for one receiver; weights are photopic irradiance, roughly.
     struct Shares {
@@ -64,11 +70,15 @@ private:
         double radiance_towards(const Direction& travel) const noexcept;
         void turn() noexcept;
     };
+    struct Collected;
+    static Collected collect_side(const Piece& side, std::uint64_t key, const RadianceQuery& query, std::uint64_t seed);
+    void keep_brighter(std::vector<Piece>& sides, const std::vector<double>& means);
     double potential(const Piece& piece, const Point& from, const Direction& normal) const noexcept;
 
     std::vector<Piece> pieces_, sending_;
     std::vector<std::size_t> opening_of_; ///< by piece
-    std::size_t openings_ = 0;
+    std::size_t openings_ = 0, sending_openings_ = 0;
+    bool only_unequal_ = false; ///< openings that nobody named
 };
 
 /// The scene with sheets (illum) of these modifiers made into what they stand for: their alternate, or nothing at all.

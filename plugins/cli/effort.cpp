@@ -143,15 +143,15 @@ void add_secondary_words(CLI::App& command, EffortWords& words)
             [&words](const std::string& list) {
                 SecondarySettings& secondary = words.preparation.secondary;
                 secondary.modifiers.clear();
-                secondary.on = list != "none";
+                secondary.all_panes = list == "auto";
                 if (list == "auto" || list == "none")
                     return;
                 for (const std::string_view name : split(list, ","))
                     secondary.modifiers.emplace_back(name);
             },
-            "openings that rays are aimed at for what was scattered behind them: auto (large panes; the default), "
-            "none, or names of panes and illums, with commas")
-        ->type_name("auto|none|NAME,...");
+            "openings that rays are aimed at for light that was scattered behind them: none (the default), auto (large "
+            "panes that far more light comes through from one side), or names of panes and illums, with commas")
+        ->type_name("none|auto|NAME,...");
 }
 
 void check_effort(const EffortWords& words)
