@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace lightwell {
 namespace {
@@ -48,9 +49,9 @@ AmbientEffort ambient_effort(double accuracy, const Techniques& techniques, std:
 
 AmbientBuild::AmbientBuild(const SimulationParts& parts, const AmbientEffort& effort, const Techniques& techniques,
                            const std::function<void()>& check, const std::filesystem::path& file)
-    : parts_(parts), effort_(effort), cache_(deep_),
+    : parts_(parts), effort_(effort), cache_(deep_), secondary_(parts.secondary),
       tracer_(parts.scene, parts.rays, parts.sources, parts.virtual_sources,
-              {techniques.cache ? &cache_ : nullptr, techniques.deep_field ? &deep_ : nullptr},
+              {techniques.cache ? &cache_ : nullptr, techniques.deep_field ? &deep_ : nullptr, &secondary_},
               parts.preparation.direct)
 {
     effort_.deep.check = effort_.cache.check = check;
@@ -87,13 +88,16 @@ void AmbientBuild::build_deep(std::size_t count, const Start& start)
         deep_.restore(std::move(deep));
         return answers(candidates);
     });
-    if (deep_kept_)
-        return;
-    deep_.restore({});
-    deep_.place(candidates, tracer_, parts_.box.diagonal(), effort_.deep);
-    deep_.solve_with(tracer_, effort_.deep);
-    if (kept_)
-        kept_->keep(deep_.solution());
+    // By plain paths, and once: the same for every fineness of the field, and for light from a file.
+    if (!std::exchange(collected_, true))
+        secondary_.collect(parts_.tracer, effort_.deep.seed, effort_.deep.threads);
+    if (!deep_kept_) {
+        deep_.restore({});
+        deep_.place(candidates, tracer_, parts_.box.diagonal(), effort_.deep);
+        deep_.solve_with(tracer_, effort_.deep);
+        if (kept_)
+            kept_->keep(deep_.solution());
+    }
 }
 
 std::size_t AmbientBuild::grow(const std::vector<AmbientCandidate>& candidates)

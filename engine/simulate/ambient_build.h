@@ -54,8 +54,8 @@ public:
     const PathTracer& tracer() const noexcept { return tracer_; }
     WorkCounts work() const noexcept
     {
-        return {deep_.size(), deep_.bright().size(), cache_.records().size(), deep_kept_ ? deep_.size() : 0,
-                records_kept_};
+        return {deep_.size(),  deep_.bright().size(), cache_.records().size(), deep_kept_ ? deep_.size() : 0,
+                records_kept_, secondary_.size()};
     }
     const DeepField& deep() const noexcept { return deep_; }
     const AmbientCache& cache() const noexcept { return cache_; }
@@ -69,10 +69,11 @@ private:
     AmbientEffort effort_;
     DeepField deep_;
     AmbientCache cache_;
+    SecondarySources secondary_;
     PathTracer tracer_;
     std::optional<KeptAmbient> kept_;
     std::size_t records_kept_ = 0; ///< of others, taken from the file
-    bool deep_kept_ = false;
+    bool deep_kept_ = false, collected_ = false;
 };
 
 } // namespace lightwell

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/ambient/ambient_cache.h"
+#include "engine/sources/secondary_sources.h"
 
 namespace lightwell {
 
@@ -9,6 +10,7 @@ namespace lightwell {
 struct AmbientLight {
     const AmbientCache* cache = nullptr;
     const DeepField* deep = nullptr;
+    const SecondarySources* secondary = nullptr; ///< where rays that arrive are worth aiming
 };
 
 } // namespace lightwell

@@ -15,13 +15,14 @@ struct SimulationParts {
     RayQueries rays;
     SourceList sources;
     VirtualSources virtual_sources;
-    PathTracer tracer; ///< plain
+    SecondarySources secondary; ///< whose light is not known yet
+    PathTracer tracer;          ///< plain
     Box box;
     Preparation preparation;
 
     SimulationParts(Scene&& s, const Preparation& p)
-        : scene(std::move(s)), rays(scene), sources(scene, rays),
-          virtual_sources(scene, sources, {p.virtual_sources ? p.virtual_depth : 0}),
+        : scene(with_open_sheets(std::move(s), p.secondary)), rays(scene), sources(scene, rays),
+          virtual_sources(scene, sources, {p.virtual_sources ? p.virtual_depth : 0}), secondary(scene, p.secondary),
           tracer(scene, rays, sources, virtual_sources, {}, p.direct), box(bounds(scene)), preparation(p)
     {
     }

@@ -66,8 +66,8 @@ struct PathTracer::Walk {
     MirrorChain chain;                       ///< mirrors since the last bend by a diffuse or glossy lobe
     double way_m = 0;                        ///< from there
     int scatterings = 0;
-    double surface_weight = 1;  ///< of an arrival's light from surfaces that scatter, met straight away
-    bool surfaces_only = false; ///< an arrival aimed at such a surface: sky and mirrored light are not its business
+    double aim_weight = 1; ///< of an arrival's light from where it is scattered first
+    bool aimed = false;    ///< an arrival sent where light comes from: what emits in plain view is not its business
     bool straight_from_receiver = false; ///< of an arrival, before anything bends it
     bool met_lamp = false;               ///< of an arrival: with nothing in between
     bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
@@ -79,6 +79,13 @@ struct PathTracer::Walk {
     {
         radiance += throughput * light;
         irradiance += arriving_throughput * light * weight;
+    }
+    /// From here on an arrival brings light that another way of sending rays finds too.
+    void settle_aim()
+    {
+        arriving_throughput = arriving_throughput * aim_weight;
+        aim_weight = 1;
+        aimed = false;
     }
     /// Weight of a source met by a scattered ray against shadow rays of this density.
     double weight(double shadow_density) const
@@ -118,7 +125,7 @@ PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceL
 
 void PathTracer::meet_distant(Walk& walk) const
 {
-    if (walk.surfaces_only)
+    if (walk.aimed)
         return;
     const Direction direction = walk.ray.direction;
     if (!sources_.sky().empty()) {
@@ -161,7 +168,7 @@ void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& materi
     const Direction direction = walk.ray.direction;
     const Spectrum radiance =
         emitted_towards(material, -dot(hit.normal, direction), -direction) * beam_share(material, walk.way_m);
-    if (radiance.is_black())
+    if (radiance.is_black() || walk.aimed)
         return;
     const int lamp = sources_.lamp_at(hit);
     double shadow_density = 0;
@@ -307,9 +314,9 @@ bool PathTracer::follow(Walk& walk, const Vertex& vertex, const BsdfSample& scat
         walk.arriving_throughput = {};
     walk.throughput *= scattered.weight;
     walk.ray = {vertex.hit.leave(world), normalized(world), infinity};
-    if (walk.surfaces_only && !scattered.straight)
-        return false;
     if (!scattered.straight) { // a straight passage leaves the weights of the last scattering as they are
+        if (walk.straight_from_receiver)
+            walk.settle_aim();
         walk.straight_from_receiver = false;
         if (scattered.delta) {
             walk.chain.reflect(virtual_sources_.mirrors().mirror_at(vertex.hit));
@@ -405,11 +412,8 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     }
     const Lobes& lobes = vertex.bsdf.lobes();
     walk.first_is_diffuse = walk.at_first ? !lobes.diffuse_reflectance.is_black() : walk.first_is_diffuse;
-    if (walk.straight_from_receiver && (is_diffuse(lobes) || lobes.glossy)) {
-        walk.arriving_throughput = walk.arriving_throughput * walk.surface_weight;
-        walk.surface_weight = 1;
-        walk.surfaces_only = false;
-    }
+    if (walk.straight_from_receiver && (is_diffuse(lobes) || lobes.glossy))
+        walk.settle_aim();
     AmbientHere here;
     if (is_diffuse(lobes) && find_ambient(walk, vertex, here)) {
         add_ambient(walk, here);
@@ -473,7 +477,7 @@ PathTracer::Walk PathTracer::arriving_walk(const Vertex& vertex, const Direction
     Walk walk;
     walk.ray = {vertex.hit.leave(direction), direction, infinity};
     walk.arriving_throughput = Spectrum::grey(pi);
-    walk.surface_weight = weight;
+    walk.aim_weight = weight;
     walk.at_first = false;
     walk.bent = true;
     walk.sources = Walk::Sources::answered;
@@ -494,17 +498,12 @@ Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direct
         const GatherWish sky{later_rays, {false, false, true}, LobeSet::all};
         arrival.irradiance = direct_.gather(vertex, sky, random, shares).irradiance;
     }
-    const BrightDiscs* bright = ambient_.deep != nullptr ? &ambient_.deep->bright() : nullptr;
-    const bool guided = bright != nullptr && !bright->empty();
+    const Aim aim(ambient_.deep != nullptr ? &ambient_.deep->bright() : nullptr, ambient_.secondary, receiver.position,
+                  receiver.normal);
     const auto cosine_density = [&](const Direction& d) {
         return cosine_hemisphere_density_per_sr(dot(d, receiver.normal));
     };
-    BrightDiscs::Shares discs;
-    double weight = 1;
-    if (guided) {
-        discs = bright->shares(receiver.position, receiver.normal);
-        weight = 1 - shadow_ray_weight(bright->density_per_sr(discs, direction), cosine_density(direction));
-    }
+    const double weight = aim ? 1 - shadow_ray_weight(aim.density_per_sr(direction), cosine_density(direction)) : 1;
     Walk walk = arriving_walk(vertex, direction, weight);
     walk.shares = shares;
     walk.dependences = &dependences;
@@ -514,17 +513,31 @@ Arrival PathTracer::arrive(const SurfacePlace& receiver, const Direction& direct
     arrival.met_lamp = walk.met_lamp;
     if (walk.first)
         arrival.met = {length(walk.first->position - receiver.position), facing(walk.first->normal, direction)};
-    const SampledDirection aimed = guided ? bright->sample(discs, random.pair()) : SampledDirection{};
+    const SampledDirection aimed = aim ? aim.sample(random.pair()) : SampledDirection{};
     const double cosine = cosine_density(aimed.direction);
     if (aimed.density_per_sr > 0 && cosine > 0) {
         const double share = shadow_ray_weight(aimed.density_per_sr, cosine);
         Walk second = arriving_walk(vertex, aimed.direction, share * cosine / aimed.density_per_sr);
-        second.surfaces_only = true;
+        second.aimed = true;
         second.dependences = &dependences;
         run(second, random);
         arrival.irradiance += second.irradiance;
     }
     return arrival;
+}
+
+Spectrum PathTracer::scattered_radiance(const Point& to, const Direction& direction, PathRandom& random) const
+{
+    Walk walk;
+    walk.ray = {to, direction, infinity};
+    walk.at_first = false;
+    walk.bent = true;
+    walk.sources = Walk::Sources::answered;
+    walk.chain.begin();
+    walk.straight_from_receiver = true;
+    walk.aimed = true;
+    run(walk, random);
+    return walk.radiance;
 }
 
 void PathTracer::receivers_along(const Ray& ray, int scatterings, PathRandom& random,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/direct/mirrored_light.h"
+#include "engine/simulate/aim.h"
 #include "engine/simulate/ambient_light.h"
 
 namespace lightwell {
@@ -34,7 +35,7 @@ struct Sight {
 /// scattered light from there, and only mirrored, refracted and glossy rays go on.
 /// Error: unbiased without ambient light
 /// Source  Ward 1994, Eq. (1); Kajiya 1986
-class PathTracer : public HemisphereRays {
+class PathTracer : public HemisphereRays, public RadianceQuery {
 public:
     PathTracer(const Scene& scene, const RayQueries& rays, const SourceList& sources,
                const VirtualSources& virtual_sources, const AmbientLight& ambient = {},
@@ -48,6 +49,7 @@ public:
 
     Arrival arrive(const SurfacePlace& receiver, const Direction& direction, PathRandom& random,
                    std::vector<Dependence>& dependences) const override;
+    Spectrum scattered_radiance(const Point& to, const Direction& direction, PathRandom& random) const override;
     bool beside(const SurfacePlace& receiver, const Vec3& offset, double lift_m, SurfacePlace& found) const override;
     Met meet(const SurfacePlace& receiver, const Direction& direction) const override;
     DirectIrradiance direct(const SurfacePlace& receiver, PathRandom& random) const override;

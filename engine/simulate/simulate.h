@@ -6,6 +6,7 @@
 #include "engine/direct/settings.h"
 #include "engine/pictures/picture.h"
 #include "engine/scene/scene.h"
+#include "engine/sources/secondary_sources.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -69,6 +70,7 @@ struct BiasEstimate {
 struct WorkCounts {
     std::size_t deep_sites = 0, bright_discs = 0, ambient_records = 0;
     std::size_t sites_kept = 0, records_kept = 0; ///< of these, taken from the file of kept light
+    std::size_t secondary_sources = 0;            ///< openings that rays were aimed at
 };
 
 /// Where finished tiles go, and where those of an interrupted run come from. May be called from several threads.
@@ -119,6 +121,7 @@ struct Preparation {
     int virtual_depth = 2;       ///< mirrors one after the other that virtual sources stand behind; 0: none
     bool virtual_sources = true; ///< false: as a depth of 0
     DirectSettings direct = {};
+    SecondarySettings secondary = {}; ///< openings that rays are aimed at
 };
 
 struct SimulationParts;

@@ -20,6 +20,8 @@ constexpr TechniqueName names[] = {
     {"adaptive", "every lamp and sun is tested", [](T&, P& p) -> bool& { return p.direct.adaptive; }},
     {"subdivision", "one shadow ray a source, however near", [](T&, P& p) -> bool& { return p.direct.subdivide; }},
     {"virtual", "light by way of mirrors by scattered rays alone", [](T&, P& p) -> bool& { return p.virtual_sources; }},
+    {"secondary", "no rays are aimed at openings for what was scattered behind them",
+     [](T&, P& p) -> bool& { return p.secondary.on; }},
     {"tree", "every lamp is looked at, however many", [](T&, P& p) -> bool& { return p.direct.tree; }},
     {"analytic", "no closed forms of near sources: samples alone", [](T&, P& p) -> bool& { return p.direct.analytic; }},
 };

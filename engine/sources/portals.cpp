@@ -78,10 +78,15 @@ double Portal::density_per_sr(const Point& from, const Direction& direction) con
     return within ? t * t / (area_m2 * std::fabs(cosine)) : 0;
 }
 
-std::vector<Portal> find_portals(const Scene& scene)
+std::vector<Portal> find_portals(const Scene& scene, const std::vector<std::string>& modifiers)
 {
+    std::vector<ModifierId> wanted;
+    for (const std::string& name : modifiers)
+        wanted.push_back(scene.find_modifier(name));
     std::vector<Portal> portals;
     visit_expanded(scene, [&](const Part& part, const Surface& surface, const Affine& to_world, ModifierId modifier) {
+        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), modifier) == wanted.end())
+            return;
         const Material* material = resolve(scene, modifier).material;
         Rectangle r;
         if (material == nullptr || !std::holds_alternative<Glass>(*material) ||

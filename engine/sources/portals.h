@@ -3,6 +3,7 @@
 #include "engine/sampling/warps.h"
 #include "engine/scene/scene.h"
 
+#include <string>
 #include <vector>
 
 namespace lightwell {
@@ -23,6 +24,7 @@ struct Portal {
 };
 
 /// The largest flat panes of glass, largest first.
-std::vector<Portal> find_portals(const Scene& scene);
+/// @param modifiers  of the panes that are meant; none: all
+std::vector<Portal> find_portals(const Scene& scene, const std::vector<std::string>& modifiers = {});
 
 } // namespace lightwell

@@ -135,6 +135,25 @@ void add_ambient_file(CLI::App& command, EffortWords& words)
         ->type_name("FILE");
 }
 
+void add_secondary_words(CLI::App& command, EffortWords& words)
+{
+    command
+        .add_option_function<std::string>(
+            "--secondary",
+            [&words](const std::string& list) {
+                SecondarySettings& secondary = words.preparation.secondary;
+                secondary.modifiers.clear();
+                secondary.all_panes = list == "auto";
+                if (list == "auto" || list == "none")
+                    return;
+                for (const std::string_view name : split(list, ","))
+                    secondary.modifiers.emplace_back(name);
+            },
+            "openings that rays are aimed at for light that was scattered behind them: none (the default), auto (large "
+            "panes that far more light comes through from one side), or names of panes and illums, with commas")
+        ->type_name("none|auto|NAME,...");
+}
+
 void check_effort(const EffortWords& words)
 {
     if (words.time_s > 0 && (words.accuracy_given || words.samples > 0))

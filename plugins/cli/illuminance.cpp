@@ -72,6 +72,7 @@ void add_illuminance(CLI::App& app, Status& status)
     add_plan_flag(command, options->effort);
     add_time_words(command, options->effort, &options->scene.sky);
     add_ambient_file(command, options->effort);
+    add_secondary_words(command, options->effort);
     command.footer(examples);
     command.callback([options, &status] {
         check_effort(options->effort);

@@ -51,6 +51,8 @@ GridSettings grid_settings(const EffortWords& words);
 void add_time_words(CLI::App& command, EffortWords& words, SkyWords* sky);
 /// `--ambient-file`.
 void add_ambient_file(CLI::App& command, EffortWords& words);
+/// `--secondary`.
+void add_secondary_words(CLI::App& command, EffortWords& words);
 /// To be called when all words are read.
 /// @throws CLI::ValidationError for wishes that contradict each other
 void check_effort(const EffortWords& words);

@@ -48,7 +48,9 @@ std::string settings_text(const Simulation& simulation, const PictureJob& job)
 {
     const PictureSettings& s = job.settings;
     const std::string off = switched_off(s.techniques, simulation.preparation());
+    const SecondarySettings& secondary = simulation.preparation().secondary;
     const std::string ways = std::string(s.unbiased ? ", unbiased" : "") + (off.empty() ? "" : ", without " + off) +
+                             (secondary.none() ? "" : ", secondary " + to_text(secondary)) +
                              (s.ambient_file.file.empty() ? "" : ", kept ambient light");
     return "size " + std::to_string(s.width) + "x" + std::to_string(s.height) + region_text(s.region) + effort_text(s) +
            ", seed " + std::to_string(s.seed) + ", scene " + hexadecimal(scene_hash(simulation.scene())) + ", view " +

@@ -87,6 +87,7 @@ void write_run_record(const std::filesystem::path& result, const RunRecord& reco
     json["samples"] = record.samples;
     json["built"] = {{"deep_sites", record.work.deep_sites},
                      {"bright_discs", record.work.bright_discs},
+                     {"secondary_sources", record.work.secondary_sources},
                      {"ambient_records", record.work.ambient_records},
                      {"sites_from_file", record.work.sites_kept},
                      {"records_from_file", record.work.records_kept}};

@@ -211,6 +211,7 @@ void add_run(CLI::App& app, Status& status)
     add_unbiased_flag(command, options->effort);
     add_time_words(command, options->effort, nullptr);
     add_ambient_file(command, options->effort);
+    add_secondary_words(command, options->effort);
     command.footer(examples);
     command.callback([options, &status, &command] {
         check_effort(options->effort);
