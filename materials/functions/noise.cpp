@@ -38,7 +38,7 @@ Vec3 edge_direction(unsigned hash) noexcept
     if (h < 8)
         return {first, 0, second};
     if (h == 12 || h == 14)
-        return {first, second, 0};
+        return {second, first, 0};
     return {0, first, second};
 }
 
