@@ -33,7 +33,7 @@ std::string complaint(const ChildLimits& limits)
     return "accepted";
 }
 
-constexpr ChildLimits one_second{1, 100'000'000, 1'000'000};
+constexpr ChildLimits one_second{1, 3, 100'000'000, 1'000'000};
 
 TEST(ImportProgram, ACrashBecomesAnErrorThatNamesTheFile)
 {
