@@ -16,6 +16,11 @@ void add_import_words(CLI::App& command, ImportWords& words)
         .add_option("--unit", words.unit, "unit of the drawing, when the file is silent or wrong: mm, m, in, ft, ...")
         ->type_name("UNIT");
     command.add_option("--up", words.up, "axis that points up in the file: y or z")->check(CLI::IsMember({"y", "z"}));
+    command.add_flag("--keep-triangles", words.keep_triangles, "leave the triangles of a flat face as they are");
+    command
+        .add_option("--crease-angle", words.crease_angle_deg,
+                    "shade meshes without normals as round across edges bent less (degrees)")
+        ->check(CLI::Range(0.0, 180.0));
 }
 
 ImportOptions import_options(const ImportWords& words)
@@ -24,6 +29,8 @@ ImportOptions import_options(const ImportWords& words)
     if (!words.unit.empty())
         options.metres_per_unit = parse_unit(words.unit).value;
     options.up = words.up;
+    options.keep_triangles = words.keep_triangles;
+    options.crease_angle_deg = words.crease_angle_deg;
     return options;
 }
 

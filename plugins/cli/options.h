@@ -17,9 +17,11 @@ namespace lightwell {
 struct SceneWords;
 struct SkyWords;
 
-/// How to read a CAD file: `--unit`, `--up`.
+/// How to read a CAD file: `--unit`, `--up`, `--keep-triangles`, `--crease-angle`.
 struct ImportWords {
     std::string unit, up;
+    bool keep_triangles = false;
+    std::optional<double> crease_angle_deg;
 };
 void add_import_words(CLI::App& command, ImportWords& words);
 ImportOptions import_options(const ImportWords& words);

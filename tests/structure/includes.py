@@ -28,7 +28,8 @@ LIGHT_ROWS = [
 ]
 IMPORT_ROWS = [
     {"importers"},
-    {"importers/dxf", "importers/obj", "importers/gltf", "importers/radiance", "importers/assimp"},
+    {"importers/dxf", "importers/obj", "importers/gltf", "importers/radiance", "importers/assimp",
+     "importers/surfaces"},
     {"importers/formats"},
     {"importers/project"},
 ]
