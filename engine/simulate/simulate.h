@@ -3,6 +3,7 @@
 #include "engine/base/progress.h"
 #include "engine/base/quantities.h"
 #include "engine/base/report.h"
+#include "engine/base/tally.h"
 #include "engine/direct/settings.h"
 #include "engine/pictures/picture.h"
 #include "engine/scene/scene.h"
@@ -71,6 +72,18 @@ struct WorkCounts {
     std::size_t deep_sites = 0, bright_discs = 0, ambient_records = 0;
     std::size_t sites_kept = 0, records_kept = 0; ///< of these, taken from the file of kept light
     std::size_t secondary_sources = 0;            ///< openings that rays were aimed at
+    // Rays by what they were for: the same for any number of threads.
+    RayCounts ambient_rays; ///< before any value: sites, records
+    RayCounts fixed_rays;   ///< to choose the samples and to check the bias
+    RayCounts value_rays;   ///< for the values themselves
+
+    RayCounts rays() const noexcept
+    {
+        RayCounts sum = ambient_rays;
+        sum += fixed_rays;
+        sum += value_rays;
+        return sum;
+    }
 };
 
 /// Where finished tiles go, and where those of an interrupted run come from. May be called from several threads.

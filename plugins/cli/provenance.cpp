@@ -91,6 +91,10 @@ void write_run_record(const std::filesystem::path& result, const RunRecord& reco
                      {"ambient_records", record.work.ambient_records},
                      {"sites_from_file", record.work.sites_kept},
                      {"records_from_file", record.work.records_kept}};
+    json["rays"] = {{"ambient", record.work.ambient_rays.total()},
+                    {"fixed", record.work.fixed_rays.total()},
+                    {"values", record.work.value_rays.total()},
+                    {"shadow", record.work.rays().shadow}};
     json["wanted_accuracy"] = record.wanted_accuracy;
     if (record.wanted_time_s > 0)
         json["wanted_time_s"] = record.wanted_time_s;
