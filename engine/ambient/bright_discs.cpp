@@ -10,6 +10,10 @@ namespace {
 /// The brightest pieces that give this share of the reflected light are worth aiming at when they are no more than that
 /// share of the area.
 constexpr double share_of_light = 0.8, most_of_area = 0.2;
+/// Pieces that are joined are covered by discs that reach beyond them: so much they may cover together.
+constexpr double most_of_area_joined = 2 * most_of_area;
+/// Pieces of one disc face the same way, about.
+constexpr double same_facing = 0.9;
 /// A disc seen edge-on or from behind by a little may still show a part: no smaller cosine in a potential.
 constexpr double least_cosine = 0.05;
 
@@ -18,26 +22,83 @@ double area_m2(const BrightDiscs::Lit& piece)
     return pi * piece.radius_m * piece.radius_m;
 }
 
+double area_of(const std::vector<BrightDiscs::Lit>& pieces)
+{
+    double area = 0;
+    for (const BrightDiscs::Lit& piece : pieces)
+        area += area_m2(piece);
+    return area;
+}
+
+double light_of(const std::vector<BrightDiscs::Lit>& pieces)
+{
+    double light = 0;
+    for (const BrightDiscs::Lit& piece : pieces)
+        light += piece.irradiance * area_m2(piece);
+    return light;
+}
+
+/// One disc with the light of all pieces, that covers them.
+/// @param pieces  the first is the brightest
+BrightDiscs::Lit covering(const std::vector<BrightDiscs::Lit>& pieces)
+{
+    const double light = light_of(pieces);
+    BrightDiscs::Lit disc{{}, pieces[0].normal, 0, 0};
+    for (const BrightDiscs::Lit& piece : pieces)
+        disc.centre += piece.centre * (piece.irradiance * area_m2(piece) / light);
+    for (const BrightDiscs::Lit& piece : pieces)
+        disc.radius_m = std::max(disc.radius_m, length(piece.centre - disc.centre) + piece.radius_m);
+    disc.irradiance = light / area_m2(disc);
+    return disc;
+}
+
+/// The brightest piece takes in those within reach that face as it does, then the brightest of the others, and so on.
+std::vector<BrightDiscs::Lit> joined(std::vector<BrightDiscs::Lit> left, double reach_m)
+{
+    std::vector<BrightDiscs::Lit> discs;
+    while (!left.empty()) {
+        const BrightDiscs::Lit middle = left[0];
+        const auto others = std::stable_partition(left.begin(), left.end(), [&](const BrightDiscs::Lit& piece) {
+            return length(piece.centre - middle.centre) <= reach_m && dot(piece.normal, middle.normal) > same_facing;
+        });
+        discs.push_back(covering({left.begin(), others}));
+        left.erase(left.begin(), others);
+    }
+    return discs;
+}
+
+/// The finer the sites, the more pieces a bright patch falls into: joined until they are few.
+/// @param pieces  the brightest first
+std::vector<BrightDiscs::Lit> few(const std::vector<BrightDiscs::Lit>& pieces)
+{
+    constexpr double further = 1.4;
+    constexpr int most_steps = 40; // to a millionfold reach
+    std::vector<BrightDiscs::Lit> discs = pieces;
+    double reach_m = pieces.empty() ? 0 : 2 * pieces[0].radius_m;
+    for (int step = 0; step < most_steps && discs.size() > BrightDiscs::most_discs; ++step, reach_m *= further)
+        discs = joined(pieces, reach_m);
+    if (discs.size() > BrightDiscs::most_discs)
+        discs.clear();
+    return discs;
+}
+
 } // namespace
 
 BrightDiscs::BrightDiscs(std::vector<Lit> pieces)
 {
     std::sort(pieces.begin(), pieces.end(), [](const Lit& a, const Lit& b) { return a.irradiance > b.irradiance; });
-    double light = 0, area = 0;
-    for (const Lit& piece : pieces) {
-        light += piece.irradiance * area_m2(piece);
-        area += area_m2(piece);
+    const double light = light_of(pieces), area = area_of(pieces);
+    double kept_light = 0;
+    std::size_t kept = 0;
+    while (kept < pieces.size() && kept_light < share_of_light * light) {
+        kept_light += pieces[kept].irradiance * area_m2(pieces[kept]);
+        ++kept;
     }
-    double kept_light = 0, kept_area = 0;
-    for (const Lit& piece : pieces) {
-        if (kept_light >= share_of_light * light || discs_.size() == most_discs)
-            break;
-        kept_light += piece.irradiance * area_m2(piece);
-        kept_area += area_m2(piece);
-        discs_.push_back(piece);
-    }
-    constexpr double least_of_light = 0.5; // when the number of discs ends the list
-    if (!(light > 0) || kept_light < least_of_light * light || kept_area > most_of_area * area)
+    pieces.resize(kept);
+    if (!(light > 0) || area_of(pieces) > most_of_area * area)
+        return;
+    discs_ = few(pieces);
+    if (area_of(discs_) > most_of_area_joined * area)
         discs_.clear();
 }
 

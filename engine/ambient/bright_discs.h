@@ -21,7 +21,7 @@ public:
         double irradiance = 0; ///< photopic, W/m^2
     };
     BrightDiscs() = default;
-    /// Keeps the brightest pieces when they are few and give most of the light; else none.
+    /// The brightest pieces where they give most of the light and cover little, joined where they are many; else none.
     explicit BrightDiscs(std::vector<Lit> pieces);
 
     static constexpr std::size_t most_discs = 48;
