@@ -5,7 +5,7 @@ find_package(embree 3.13 REQUIRED)         # engine/accel
 find_package(Imath REQUIRED)
 find_package(OpenEXR REQUIRED)             # engine/pictures
 find_package(PNG REQUIRED)                 # engine/pictures
-find_package(JPEG REQUIRED)                # importers/gltf
+find_package(JPEG REQUIRED)                # engine/pictures
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)        # engine/base
