@@ -4,21 +4,18 @@
 #include "importers/gltf/gltf_accessor.h"
 #include "importers/gltf/gltf_buffers.h"
 #include "importers/gltf/gltf_lights.h"
+#include "importers/gltf/gltf_placement.h"
 #include "importers/gltf/gltf_primitive.h"
 #include "importers/gltf/gltf_tree.h"
 #include "importers/gltf/gltf_views.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
 #include <utility>
 
 namespace lightwell {
 namespace {
-
-/// A map that flattens space below this share of its own size cannot be turned back, as an instance must be.
-constexpr double singular_tolerance = 1e-12;
 
 /// A file may read each of its bytes so often, by primitives that share accessors, before it counts as a trap.
 constexpr std::size_t most_readings = 100;
@@ -57,9 +54,11 @@ private:
     std::vector<Loaded> load(int mesh, const Use& first, const GltfPose& pose, bool counts);
     void load_primitive(int mesh, std::size_t number, const GltfPose& pose, const std::string& layer, bool counts,
                         std::vector<Loaded>& parts);
+    void count_elements(std::size_t count);
     void count_reading(int accessor);
     void count_readings(const GltfPrimitive& primitive, const GltfPose& pose);
     GltfPose pose_of(int mesh, int node);
+    std::vector<Affine> joints_of(const GltfSkin& skin);
     void build_plain(int mesh, const std::vector<Use>& uses, bool counts);
     void build_posed(int mesh, const Use& use, const GltfPose& pose, bool counts);
     void place_once(const std::vector<Loaded>& parts, int mesh, const Use& use, bool only);
@@ -211,7 +210,12 @@ void GltfBuilder::count_reading(int accessor)
 {
     if (accessor < 0 || static_cast<std::size_t>(accessor) >= document_.accessors.size())
         return;
-    readings_ += std::min(document_.accessors[static_cast<std::size_t>(accessor)].count, free_readings + bytes_);
+    count_elements(document_.accessors[static_cast<std::size_t>(accessor)].count);
+}
+
+void GltfBuilder::count_elements(std::size_t count)
+{
+    readings_ += std::min(count, free_readings + bytes_);
     if (readings_ > free_readings + most_readings * bytes_)
         throw InputError(document_.name,
                          "its parts repeat the same accessors until " + std::to_string(readings_) +
@@ -243,25 +247,37 @@ GltfPose GltfBuilder::pose_of(int mesh, int index)
     if (node.skin < 0 || static_cast<std::size_t>(node.skin) >= document_.skins.size())
         return pose;
     const GltfSkin& skin = document_.skins[static_cast<std::size_t>(node.skin)];
+    pose.joints = joints_of(skin);
+    ++(pose.joints.empty() ? unskinned_ : skinned_);
+    return pose;
+}
+
+/// Mesh -> metres by each bone; empty when a bone or its matrix cannot be used.
+std::vector<Affine> GltfBuilder::joints_of(const GltfSkin& skin)
+{
+    std::vector<Affine> joints;
     std::vector<double> inverse_bind;
+    count_elements(skin.joints.size());
     if (skin.inverse_bind >= 0) {
         count_reading(skin.inverse_bind);
-        inverse_bind = read_numbers(document_, skin.inverse_bind, 16);
+        try {
+            inverse_bind = read_numbers(document_, skin.inverse_bind, 16);
+        } catch (const InputError& error) {
+            imported_.report.add(Finding::ignored, document_.name, std::string("skin left out: ") + error.what());
+            return {};
+        }
     }
     for (std::size_t i = 0; i < skin.joints.size(); ++i) {
         const int joint = skin.joints[i];
         if (joint < 0 || static_cast<std::size_t>(joint) >= document_.nodes.size() || !tree_.world(joint) ||
-            (!inverse_bind.empty() && inverse_bind.size() < 16 * (i + 1))) {
-            pose.joints.clear();
-            break;
-        }
+            (!inverse_bind.empty() && inverse_bind.size() < 16 * (i + 1)))
+            return {};
         const double* m = inverse_bind.empty() ? nullptr : &inverse_bind[16 * i];
         const Affine bind =
             m ? Affine{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}} : Affine{};
-        pose.joints.push_back(compose(*tree_.world(joint), bind));
+        joints.push_back(compose(*tree_.world(joint), bind));
     }
-    ++(pose.joints.empty() ? unskinned_ : skinned_);
-    return pose;
+    return joints;
 }
 
 /// @param counts  the ledger, in which each primitive of a mesh counts once however often it is read
@@ -313,31 +329,6 @@ void GltfBuilder::load_primitive(int index, std::size_t number, const GltfPose& 
         imported_.report.add(Finding::ignored, document_.name + ": mesh \"" + mesh.name + '"',
                              std::string("primitive left out: ") + error.what());
     }
-}
-
-/// A mirrored map turns the corners round, so that the front stays the front.
-void transform(Mesh& mesh, const Affine& map)
-{
-    for (Point& point : mesh.points)
-        point = map.point(point);
-    const double determinant = map.determinant();
-    const double size = std::fmax(max_abs(map.x), std::fmax(max_abs(map.y), max_abs(map.z)));
-    const bool singular = !(std::fabs(determinant) > singular_tolerance * size * size * size);
-    if (singular)
-        mesh.normals.clear();
-    for (Direction& normal : mesh.normals)
-        normal = transform_normal(map, normal);
-    if (determinant < 0)
-        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
-            std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
-}
-
-bool all_finite(const Mesh& mesh)
-{
-    for (const Point& point : mesh.points)
-        if (!is_finite(point))
-            return false;
-    return true;
 }
 
 std::string part_name(const std::string& path, const Loaded& part, std::size_t parts)
@@ -395,12 +386,6 @@ void GltfBuilder::place_copies(const std::vector<Loaded>& parts, int mesh, const
                     {inherited[i], keys_.modifier_for(key_of(*parts[i].primitive, mesh, use.node))});
         imported_.scene.root.add_instance(std::move(instance), use.path);
     }
-}
-
-bool invertible(const Affine& map)
-{
-    const double size = std::fmax(max_abs(map.x), std::fmax(max_abs(map.y), max_abs(map.z)));
-    return is_finite(map.translation) && std::fabs(map.determinant()) > singular_tolerance * size * size * size;
 }
 
 /// A mesh that bones or weights of its own node bend is read for that node alone.

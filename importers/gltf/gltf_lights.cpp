@@ -77,6 +77,8 @@ std::string add_light(const GltfDocument& document, int number, SurfaceKey key, 
     key.material = "light: " + (light.name.empty() ? std::to_string(number) : light.name);
     if (light.type == "spot")
         key.material += " at " + key.group;
+    if (light.type == "spot" && names.count(key.material) > 0) // siblings of one name, each with its own aim
+        key.material += " #" + std::to_string(names.size());
     if (names.insert(key.material).second)
         imported.file_materials.emplace_back(key.material, material_of(light, stand));
     const ModifierId modifier = keys.modifier_for(key);

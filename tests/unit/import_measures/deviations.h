@@ -1,9 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <map>
+#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -29,19 +27,22 @@ public:
         ++(items.empty() ? agree_ : items.count("refused") > 0 ? refused_ : differ_);
         for (const std::string& item : items)
             if (expected_.erase({name, item}) == 0)
-                ADD_FAILURE() << name << " differs in: " << item;
+                surprises_.push_back(name + " differs in: " + item);
     }
-    /// Prints the table and fails for what was expected to differ and does not.
-    void finish(std::ostream& out) const
+    /// Prints the table.  @return what differs and should not, or should and does not
+    std::vector<std::string> finish(std::ostream& out) const
     {
         out << agree_ + differ_ + refused_ << " files: " << agree_ << " agree, " << differ_ << " differ, " << refused_
             << " refused\n";
+        std::vector<std::string> surprises = surprises_;
         for (const auto& [what, reason] : expected_)
-            ADD_FAILURE() << what.first << " no longer differs in: " << what.second;
+            surprises.push_back(what.first + " no longer differs in: " + what.second);
+        return surprises;
     }
 
 private:
     std::map<std::pair<std::string, std::string>, std::string> expected_;
+    std::vector<std::string> surprises_;
     std::size_t agree_ = 0, differ_ = 0, refused_ = 0;
 };
 
