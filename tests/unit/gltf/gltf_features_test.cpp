@@ -221,7 +221,10 @@ std::size_t entities_in(const Json& file)
 /// The JSON of a fixture with one number, drawn at random, changed.
 void change_a_number(Json& file, RandomStream& random)
 {
-    std::vector<Json*> numbers, open{&file["accessors"], &file["bufferViews"], &file["materials"]};
+    std::vector<Json*> numbers, open;
+    for (const char* key : {"accessors", "bufferViews", "materials"})
+        if (file.contains(key))
+            open.push_back(&file[key]);
     for (Json& node : file["nodes"])
         for (const char* key : {"translation", "rotation", "scale", "weights"})
             if (node.contains(key))

@@ -61,7 +61,7 @@ bool sizes_agree(const Imported& imported, const Measured& found, const Json& tr
     std::map<std::string, std::size_t> sizes;
     for (const Polygon& polygon : imported.scene.root.polygons)
         ++sizes[std::to_string(polygon.count)];
-    const std::map<std::string, std::size_t> expected = counts_in(truth["face_sizes"]);
+    const std::map<std::string, std::size_t> expected = counts_in(truth.value("face_sizes", Json::object()));
     if (imported.scene.root.meshes.empty())
         return sizes == expected;
     for (const auto& [size, count] : sizes)
@@ -114,19 +114,60 @@ std::set<std::string> differences(const Imported& imported, const Json& truth)
     check(skipped_of_type(imported, "line") == truth.value("lines", std::size_t{0}), "lines");
     check(skipped_of_type(imported, "point") == truth.value("points", std::size_t{0}), "points");
     const auto groups = as_truth_names(faces_by(imported, &SurfaceKey::group), "(default)");
-    if (const Json& expected = truth["faces_per_group"]; expected.contains("(count)"))
+    if (const Json expected = truth.value("faces_per_group", Json::object()); expected.contains("(count)"))
         check(groups.size() == expected["(count)"].get<std::size_t>(), "faces by group");
     else
         check(groups == counts_in(expected), "faces by group");
-    check(as_truth_names(faces_by(imported, &SurfaceKey::material), "(none)") == counts_in(truth["faces_per_material"]),
+    check(as_truth_names(faces_by(imported, &SurfaceKey::material), "(none)") ==
+              counts_in(truth.value("faces_per_material", Json::object())),
           "faces by material");
     check(sizes_agree(imported, found, truth), "corners of faces");
-    check(areas_agree(found, truth["area_per_material"]), "areas");
-    check(bounds_agree(found.bounds, truth["bbox_all_v"]), "bounds");
+    check(areas_agree(found, truth.value("area_per_material", Json::object())), "areas");
+    check(bounds_agree(found.bounds, truth.value("bbox_all_v", Json())), "bounds");
     return items;
 }
 
-const std::vector<Deviation> meant_to_differ = {};
+const char* const without_area = "faces without area are left out, each in the ledger";
+const char* const other_letters = "a name with letters of Windows-1252 becomes UTF-8; the truth has its bytes replaced";
+const char* const bad_indices = "faces that name a vertex that is not there are left out, each in the ledger";
+const char* const no_numbers = "coordinates such as 3.1+e2 are no numbers; faces that use them are left out";
+const char* const unused_vertices = "the truth's box holds vertices of lines and points, or of nothing";
+const char* const nothing = "a file without vertex and face";
+
+const std::vector<Deviation> meant_to_differ = {
+    {"assimp/number_formats.obj", "bounds", no_numbers},
+    {"assimp/number_formats.obj", "corners of faces", no_numbers},
+    {"assimp/number_formats.obj", "faces by group", no_numbers},
+    {"assimp/number_formats.obj", "faces by material", no_numbers},
+    {"assimp/number_formats.obj", "faces left out", no_numbers},
+    {"assimp/regr01.obj", "areas", other_letters},
+    {"assimp/regr01.obj", "corners of faces", without_area},
+    {"assimp/regr01.obj", "faces by group", without_area},
+    {"assimp/regr01.obj", "faces by material", without_area},
+    {"assimp/regr01.obj", "faces left out", without_area},
+    {"assimp/spider.obj", "corners of faces", without_area},
+    {"assimp/spider.obj", "faces by group", without_area},
+    {"assimp/spider.obj", "faces by material", without_area},
+    {"assimp/spider.obj", "faces left out", without_area},
+    {"assimp/malformed.obj", "areas", bad_indices},
+    {"assimp/malformed.obj", "corners of faces", bad_indices},
+    {"assimp/malformed.obj", "faces by group", bad_indices},
+    {"assimp/malformed.obj", "faces by material", bad_indices},
+    {"assimp/malformed.obj", "faces left out", bad_indices},
+    {"assimp/empty.obj", "refused", nothing},
+    {"tinyobjloader/invalid-relative-texture-index.obj", "corners of faces", bad_indices},
+    {"tinyobjloader/invalid-relative-texture-index.obj", "faces by group", bad_indices},
+    {"tinyobjloader/invalid-relative-texture-index.obj", "faces by material", bad_indices},
+    {"tinyobjloader/invalid-relative-texture-index.obj", "faces left out", bad_indices},
+    {"tinyobjloader/issue-356-leading-spaces-newmtl.obj", "refused", nothing},
+    {"tinyobjloader/issue-246-usemtl-whitespace.obj", "bounds", unused_vertices},
+    {"tinyobjloader/line-prim.obj", "bounds", unused_vertices},
+    {"tinyobjloader/points-prim.obj", "bounds", unused_vertices},
+    {"online3dviewer/lines.obj", "bounds", unused_vertices},
+    {"online3dviewer/lines_in_meshes.obj", "bounds", unused_vertices},
+    {"online3dviewer/lines_triangles_colors.obj", "bounds", unused_vertices},
+    {"magnum/points.obj", "bounds", unused_vertices},
+};
 
 TEST(SharedObj, EveryFileAgreesWithCountsSizesBoundsAndAreasFoundByIndependentScripts)
 {
@@ -170,7 +211,11 @@ TEST(SharedObj, TheHallWithAStaircaseKeepsItsGroupsMaterialsAndAreas)
     std::filesystem::remove_all(folder);
     for (const Json& entry : manifest())
         if (entry["file"].get<std::string>().ends_with(".zip")) {
-            EXPECT_EQ(differences(imported, entry["ground_truth"]["staircase.obj"]), std::set<std::string>{});
+            // Triangles without area are left out, each in the ledger; areas and bounds agree.
+            const std::set<std::string> left_out{"corners of faces", "faces by group", "faces by material",
+                                                 "faces left out"};
+            EXPECT_EQ(differences(imported, entry["ground_truth"]["staircase.obj"]), left_out);
+            EXPECT_EQ(skipped_for(imported, "zero area"), skipped_of_type(imported, "face"));
         }
     EXPECT_EQ(imported.file_materials.size(), 24u);
     validate(imported.scene);
