@@ -3,6 +3,7 @@
 #include "engine/base/report.h"
 #include "engine/base/spectrum.h"
 #include "engine/scene/scene.h"
+#include "importers/file_texture.h"
 
 #include <filesystem>
 #include <optional>
@@ -29,6 +30,8 @@ struct Imported {
     std::vector<SurfaceKey> keys; ///< keys[i] belongs to scene.modifiers[i], an Alias without target (or Inherited)
     /// Materials that the file itself describes (MTL, glTF), by the file's name, to be used when no rule matches.
     std::vector<std::pair<std::string, Material>> file_materials;
+    /// Pictures of those materials; their means are in the materials already.
+    std::vector<FileTexture> file_textures;
     std::string unit; ///< as reported: "mm (from $INSUNITS)", "m (glTF)", ...
     Ledger ledger;    ///< entities read = made + skipped
     /// Entities made into surfaces of keys[i]; for keys beyond its end there is one entity for each surface name. Only
