@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -17,9 +18,10 @@ namespace lightwell {
 struct SceneWords;
 struct SkyWords;
 
-/// How to read a CAD file: `--unit`, `--up`.
+/// How to read a CAD file: `--unit`, `--up`, `--extrude`.
 struct ImportWords {
     std::string unit, up;
+    std::vector<std::string> extrude; ///< LAYER=HEIGHT
 };
 void add_import_words(CLI::App& command, ImportWords& words);
 ImportOptions import_options(const ImportWords& words);
