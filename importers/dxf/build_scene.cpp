@@ -231,6 +231,13 @@ void SceneBuilder::add_shapes_to(Target& target, const Entity& entity)
         target.part.add_cone(
             {{map.point(cone.ends[0]), map.point(cone.ends[1])}, {cone.radii[0] * unit, cone.radii[1] * unit}}, shape,
             modifier, name);
+    for (Mesh& mesh : shapes_.meshes) {
+        for (Point& point : mesh.points)
+            point = map.point(point);
+        for (Direction& normal : mesh.normals)
+            normal = target.turn.vector(normal);
+        target.part.add_mesh(std::make_shared<const Mesh>(std::move(mesh)), modifier, name);
+    }
     for (const Ring& ring : shapes_.rings)
         target.part.add_ring({map.point(ring.centre), target.turn.vector(ring.normal), ring.inner_radius * unit,
                               ring.outer_radius * unit},

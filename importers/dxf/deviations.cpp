@@ -16,7 +16,7 @@ void DeviationTotal::add(const Entity& entity, const Deviations& found, double m
 {
     chords_.add(entity, found.chords, found.chord_error * metres_per_unit);
     split_faces_.add(entity, found.split_faces, found.out_of_plane * metres_per_unit);
-    cages_.add(entity, found.cages, 0);
+    limits_.add(entity, found.limit_triangles, found.limit_error * metres_per_unit);
     patterns_.add(entity, found.patterns, 0);
 }
 
@@ -33,9 +33,11 @@ void DeviationTotal::report(Report& report) const
                                "triangles each",
                                split_faces_.largest_m * mm_per_m),
                    split_faces_.count);
-    if (cages_.count > 0)
-        report.add(Finding::approximated, drawing_.place(*cages_.first),
-                   "a subdivision mesh is shown as its control cage, not smoothed", cages_.count);
+    if (limits_.count > 0)
+        report.add(Finding::approximated, drawing_.place(*limits_.first),
+                   fmt::format("subdivision meshes became {} triangles, at most {:.3g} mm from the smooth surface that "
+                               "endless subdivision gives",
+                               limits_.count, limits_.largest_m * mm_per_m));
     if (patterns_.count > 0)
         report.add(Finding::assumed, drawing_.place(*patterns_.first),
                    "a hatch of pattern lines is taken as a filled area; map its layer to void to leave it out",

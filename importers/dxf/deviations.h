@@ -21,7 +21,7 @@ private:
         void add(const Entity& entity, std::size_t more, double distance_m);
     };
     const Drawing& drawing_;
-    Sum chords_, split_faces_, cages_, patterns_;
+    Sum chords_, split_faces_, limits_, patterns_;
 };
 
 } // namespace lightwell::dxf

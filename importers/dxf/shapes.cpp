@@ -65,6 +65,7 @@ void Shapes::clear()
     sizes_.clear();
     cones.clear();
     rings.clear();
+    meshes.clear();
     deviations = {};
 }
 
@@ -235,7 +236,7 @@ Reason add_shapes(const Drawing& drawing, const Entity& entity, const ShapeOptio
     case Kind::hatch:
         return add_hatch(entity.values, options, shapes);
     case Kind::mesh:
-        return add_mesh(drawing, entity, shapes);
+        return add_mesh(drawing, entity, options, shapes);
     case Kind::light:
     case Kind::insert:
     case Kind::other:

@@ -20,9 +20,10 @@ struct Deviations {
     std::size_t chords = 0; ///< flat facets that stand for arcs
     double chord_error = 0; ///< largest distance between arc and facets
     std::size_t split_faces = 0;
-    double out_of_plane = 0;  ///< largest distance of a corner from the mean plane of its face
-    std::size_t cages = 0;    ///< subdivision meshes shown as their control cages
-    std::size_t patterns = 0; ///< areas filled with a pattern of lines, taken as if they were painted
+    double out_of_plane = 0;         ///< largest distance of a corner from the mean plane of its face
+    std::size_t limit_triangles = 0; ///< of subdivision meshes
+    double limit_error = 0;          ///< largest distance between them and the smooth surface
+    std::size_t patterns = 0;        ///< areas filled with a pattern of lines, taken as if they were painted
 };
 
 /// A facet takes some 200 bytes: a gigabyte. Only a damaged radius or a tolerance without sense needs more; curves stop
@@ -34,7 +35,7 @@ inline constexpr std::size_t most_facets = 5'000'000;
 class Shapes {
 public:
     void clear();
-    bool empty() const { return sizes_.empty() && cones.empty() && rings.empty(); }
+    bool empty() const { return sizes_.empty() && cones.empty() && rings.empty() && meshes.empty(); }
 
     /// Any number of corners in one plane; equal neighbours are merged, and nothing is added when no area is left.
     void add_polygon(std::span<const Point> corners);
@@ -65,6 +66,7 @@ public:
 
     std::vector<std::pair<Cone, Shape>> cones;
     std::vector<Ring> rings;
+    std::vector<Mesh> meshes;
     Deviations deviations;
 
 private:
@@ -126,7 +128,7 @@ Reason add_multiline(Values values, const ShapeOptions& options, Shapes& shapes)
 Reason add_face(const Fields& fields, Shapes& shapes);
 Reason add_solid(const Fields& fields, const ShapeOptions& options, Shapes& shapes);
 Reason add_hatch(Values values, const ShapeOptions& options, Shapes& shapes);
-Reason add_mesh(const Drawing& drawing, const Entity& entity, Shapes& shapes);
+Reason add_mesh(const Drawing& drawing, const Entity& entity, const ShapeOptions& options, Shapes& shapes);
 Reason add_polyface(const Drawing& drawing, const Entity& entity, Shapes& shapes);
 Reason add_polygon_mesh(const Drawing& drawing, const Entity& entity, Shapes& shapes);
 Reason add_lwpolyline(Values values, const ShapeOptions& options, Shapes& shapes);
