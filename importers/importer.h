@@ -40,6 +40,17 @@ struct Imported {
     Report report;
 };
 
+/// Outlines of a plan that are raised to walls.
+struct RaisedLayer {
+    std::string layer; ///< pattern, as in a layer map
+    double height_m;   ///< > 0
+};
+
+/// "A-WALL=2.8", "*WALL*=2800mm", "Mur=9 ft": a pattern of layer names and a height, in metres unless it has a unit.
+/// @param place  option or file and line, for the message
+/// @throws InputError without a layer, or unless the height is a number above 0
+RaisedLayer parse_raised_layer(const std::string& words, const std::string& place);
+
 /// How to read what a file does not say.
 struct ImportOptions {
     std::optional<double> metres_per_unit;  ///< overrides what the file says
@@ -47,6 +58,7 @@ struct ImportOptions {
     bool keep_triangles = false;            ///< triangles of one flat face stay triangles
     std::optional<double> crease_angle_deg; ///< curved meshes without normals get them across edges bent less
     double chord_tolerance_m = 0.0005;      ///< for curves that have no exact surface (ellipses, arcs bent into walls)
+    std::vector<RaisedLayer> raised;       ///< DXF: the last rule that fits a layer counts
 };
 
 /// Collects keys: one modifier for each distinct key.

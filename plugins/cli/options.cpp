@@ -21,6 +21,12 @@ void add_import_words(CLI::App& command, ImportWords& words)
         .add_option("--crease-angle", words.crease_angle_deg,
                     "shade meshes without normals as round across edges bent less (degrees)")
         ->check(CLI::Range(0.0, 180.0));
+    command
+        .add_option("--extrude", words.extrude,
+                    "raise the outlines of layers of a plan (DXF) to walls: A-WALL=2.8, *WALL*=2800mm; repeatable")
+        ->type_name("LAYER=HEIGHT")
+        ->expected(1)
+        ->take_all();
 }
 
 ImportOptions import_options(const ImportWords& words)
@@ -31,6 +37,8 @@ ImportOptions import_options(const ImportWords& words)
     options.up = words.up;
     options.keep_triangles = words.keep_triangles;
     options.crease_angle_deg = words.crease_angle_deg;
+    for (const std::string& rule : words.extrude)
+        options.raised.push_back(parse_raised_layer(rule, "--extrude"));
     return options;
 }
 
