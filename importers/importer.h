@@ -53,12 +53,12 @@ RaisedLayer parse_raised_layer(const std::string& words, const std::string& plac
 
 /// How to read what a file does not say.
 struct ImportOptions {
-    std::optional<double> metres_per_unit;  ///< overrides what the file says
-    std::string up;                         ///< "", "y" or "z": overrides the format's rule
-    bool keep_triangles = false;            ///< triangles of one flat face stay triangles
-    std::optional<double> crease_angle_deg; ///< curved meshes without normals get them across edges bent less
-    double chord_tolerance_m = 0.0005;      ///< for curves that have no exact surface (ellipses, arcs bent into walls)
-    std::vector<RaisedLayer> raised;       ///< DXF: the last rule that fits a layer counts
+    std::optional<double> metres_per_unit;       ///< overrides what the file says
+    std::string up;                              ///< "", "y" or "z": overrides the format's rule
+    bool keep_triangles = false;                 ///< triangles of one flat face stay triangles
+    std::optional<double> crease_angle_deg = {}; ///< curved meshes without normals get them across edges bent less
+    double chord_tolerance_m = 0.0005;    ///< for curves that have no exact surface (ellipses, arcs bent into walls)
+    std::vector<RaisedLayer> raised = {}; ///< DXF: the last rule that fits a layer counts
 };
 
 /// Collects keys: one modifier for each distinct key.

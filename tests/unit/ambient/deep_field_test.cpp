@@ -90,10 +90,12 @@ TEST(DeepField, SitesOnABrightSpotAreNoWiderThanTheSpot)
     for (const AmbientSite& site : uneven) {
         const double distance = length(site.position - pole);
         within += distance < spot_m ? 1 : 0;
-        if (distance < 2 * spot_m)
+        if (distance < 2 * spot_m) {
             EXPECT_LT(site.reach_m[0], 2.5 * spot_m) << distance;
-        if (distance > 1.0)
+        }
+        if (distance > 1.0) {
             EXPECT_GE(site.reach_m[0], usual * (1 - 1e-12)) << distance;
+        }
     }
     EXPECT_GT(within, 0);
 }
