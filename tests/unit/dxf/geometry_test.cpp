@@ -176,8 +176,8 @@ std::string smooth_cube(const std::string& crease)
         text += "10 " + std::to_string(i & 1 ? 1 : -1) + " 20 " + std::to_string(i & 2 ? 1 : -1) + " 30 " +
                 std::to_string(i & 4 ? 1 : -1) + " ";
     text += "93 30 ";
-    for (const char* face : {"0 2 3 1", "4 5 7 6", "0 1 5 4", "1 3 7 5", "3 2 6 7", "2 0 4 6"})
-        text += "90 4 90 " + std::string{face}.replace(1, 1, " 90 ").replace(6, 1, " 90 ").replace(11, 1, " 90 ") + " ";
+    for (const char* corners : {"0 2 3 1", "4 5 7 6", "0 1 5 4", "1 3 7 5", "3 2 6 7", "2 0 4 6"})
+        text += "90 4 90 " + std::string{corners}.replace(1, 1, " 90 ").replace(6, 1, " 90 ").replace(11, 1, " 90 ") + " ";
     text += "94 12 ";
     for (const char* edge : {"0 1", "2 3", "4 5", "6 7", "0 2", "1 3", "4 6", "5 7", "0 4", "1 5", "2 6", "3 7"})
         text += "90 " + std::string{edge}.replace(1, 1, " 90 ") + " ";
