@@ -22,8 +22,12 @@ constexpr Format formats[] = {{recognize_gltf, import_gltf},
 Imported import_file(const std::filesystem::path& file, const ImportOptions& options)
 {
     for (const Format& format : formats)
-        if (format.recognize(file))
-            return format.import(file, options);
+        if (format.recognize(file)) {
+            Imported imported = format.import(file, options);
+            if (!options.raised.empty() && format.import != import_dxf)
+                imported.report.add(Finding::unused, file.filename().string(), "layers are raised in DXF files only");
+            return imported;
+        }
     throw InputError(file.filename().string(), "content is none of the formats that can be read",
                      "expected DXF, OBJ, glTF, GLB, FBX, Collada, 3DS, PLY, STL, X3D, OFF or IFC 2x3");
 }
