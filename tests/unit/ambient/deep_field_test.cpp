@@ -64,42 +64,6 @@ TEST(DeepField, UnevenDirectLightInASphereGivesEvenAmbientLight)
     }
 }
 
-/// A bright spot of 0.05 m at the north pole. Ambient light near such a spot is as uneven as the spot wherever things
-/// are close.
-TEST(DeepField, SitesOnABrightSpotAreNoWiderThanTheSpot)
-{
-    const double r = 0.5, spot_m = 0.05;
-    const Point pole{0, 0, 1};
-    const auto lit = [&](const Point& p) {
-        const Vec3 way = p - pole;
-        return 1 + 1e4 * std::exp(-dot(way, way) / (2 * spot_m * spot_m));
-    };
-    const auto sites_lit_by = [&](const SphereRays::DirectLight& direct) {
-        DeepField deep;
-        const SphereRays rays(&deep, r, direct);
-        deep.place(sphere_places(20000), rays, 2, settings_for());
-        deep.solve_with(rays, settings_for());
-        return deep.sites();
-    };
-    const std::vector<AmbientSite> even = sites_lit_by([](const Point&) { return 1.0; }), uneven = sites_lit_by(lit);
-    double usual = infinity;
-    for (const AmbientSite& site : even)
-        usual = std::min(usual, site.reach_m[0]);
-    ASSERT_GT(usual, 4 * spot_m);
-    int within = 0;
-    for (const AmbientSite& site : uneven) {
-        const double distance = length(site.position - pole);
-        within += distance < spot_m ? 1 : 0;
-        if (distance < 2 * spot_m) {
-            EXPECT_LT(site.reach_m[0], 2.5 * spot_m) << distance;
-        }
-        if (distance > 1.0) {
-            EXPECT_GE(site.reach_m[0], usual * (1 - 1e-12)) << distance;
-        }
-    }
-    EXPECT_GT(within, 0);
-}
-
 TEST(DeepField, WeightsSumToOneAndFollowAStraightLine)
 {
     DeepField deep;
