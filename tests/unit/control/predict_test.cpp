@@ -115,8 +115,10 @@ void expect_within_a_factor_of_two(const Prediction& expected, const Result& res
     const double rays = expected.rays / static_cast<double>(result.work.rays().total());
     const double error = expected.error / result.median_relative_error;
     for (const double ratio : {rays, error}) {
-        EXPECT_GT(ratio, 0.5);
-        EXPECT_LT(ratio, 2);
+        EXPECT_GT(ratio, 0.5) << "rays " << rays << ", error " << error << ", samples " << expected.samples << " for "
+                              << result.samples;
+        EXPECT_LT(ratio, 2) << "rays " << rays << ", error " << error << ", samples " << expected.samples << " for "
+                            << result.samples;
     }
 }
 
