@@ -26,6 +26,8 @@ Imported import_file(const std::filesystem::path& file, const ImportOptions& opt
         if (format.recognize(file)) {
             Imported imported = format.import(file, options);
             recover_surfaces(imported, options);
+            if (!options.raised.empty() && format.import != import_dxf)
+                imported.report.add(Finding::unused, file.filename().string(), "layers are raised in DXF files only");
             return imported;
         }
     throw InputError(file.filename().string(), "content is none of the formats that can be read",
