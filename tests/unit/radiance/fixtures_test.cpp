@@ -119,8 +119,9 @@ TEST(SceneFixtures, TheSkiesOfGenskyAndGendaylitAreRead)
         const bool has_sky = text.find("brightfunc skyfunc") != std::string::npos;
         const std::string use = "skyfunc glow g 0 0 4 1 1 1 0\ng source s 0 0 4 0 0 1 180\n";
         // Without a sky, gendaylit prints numbers that are no scene.
-        if (has_sky || sample["program"] == "gensky")
+        if (has_sky || sample["program"] == "gensky") {
             EXPECT_EQ(folder.error(text + (has_sky ? use : "")), "");
+        }
         skies += has_sky ? 1 : 0;
     }
     EXPECT_EQ(skies, 98);
