@@ -167,7 +167,7 @@ public:
     /// Far beyond what was looked at, a second look tells how errors really fall.
     int samples_for(PilotErrors pilot, double accuracy)
     {
-        constexpr int far = 8;
+        constexpr int far = 4;
         int samples = lightwell::samples_for(pilot, accuracy, most_samples);
         while (samples > far * pilot.samples) {
             const double found = error_with(far * pilot.samples, false);

@@ -54,7 +54,7 @@ TEST(Furnace, MaterialsReflectNoMoreThanTheyReceiveAndWhiteReflectsItAll)
         const Simulation simulation(std::move(scene));
         PictureSettings settings;
         settings.width = settings.height = 1;
-        settings.samples = 1 << 14;
+        settings.samples = 1 << 15;
         View view;
         view.position = {0.3, -4, 0.2};
         view.horizontal = view.vertical = 0.01;
