@@ -30,10 +30,10 @@ GridResult floor_light(const Mesh& wall, bool recover, std::uint64_t seed)
 {
     SensorGrid grid;
     for (const double x : {1.5, 2.25, 3.0})
-        for (const double y : {0.75, 1.5, 2.5})
+        for (const double y : {1.5, 2.5}) // nearer to the wall the lamp is out of sight
             grid.sensors.push_back({{x, y, 0.001}, {0, 0, 1}});
     GridSettings settings;
-    settings.samples = 2048;
+    settings.samples = 1 << 14;
     settings.seed = seed;
     settings.unbiased = true;
     return Simulation(scene_with(wall, recover)).illuminance(grid, settings);
