@@ -6,8 +6,10 @@
 #include "importers/surfaces/triangle_pool.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
+#include <unordered_map>
 
 namespace lightwell {
 namespace {
@@ -16,19 +18,33 @@ namespace {
 constexpr double least_share_in_polygons = 0.5;
 /// Larger parts are scans and terrains; they stay triangles (a note says so).
 constexpr std::size_t most_triangles = 2'000'000;
+constexpr std::uint32_t no_group = std::numeric_limits<std::uint32_t>::max();
 
-/// What may be joined: by key where the ledger counts by key, else by key and name.
+/// What may be joined: by key where the ledger counts by key, else by key and name. Surfaces that are no plain
+/// triangles have no group, nor have triangles that are alone in theirs.
 std::vector<std::uint32_t> groups_of(const Part& part, const Imported& imported)
 {
-    std::map<std::pair<ModifierId, std::string>, std::uint32_t> numbers;
-    std::vector<std::uint32_t> groups;
-    for (const Surface& surface : part.surfaces) {
-        const bool by_key =
-            surface.modifier >= 0 && static_cast<std::size_t>(surface.modifier) < imported.made_with_key.size();
-        const auto next = static_cast<std::uint32_t>(numbers.size());
-        groups.push_back(
-            numbers.try_emplace({surface.modifier, by_key ? std::string{} : surface.name}, next).first->second);
+    const std::size_t counted_by_key = imported.made_with_key.size();
+    std::unordered_map<std::string, std::uint32_t> numbers; // by modifier and name
+    std::vector<std::uint32_t> groups(part.surfaces.size(), no_group);
+    std::vector<std::size_t> triangles(counted_by_key, 0); // by group
+    for (std::size_t i = 0; i < part.surfaces.size(); ++i) {
+        const Surface& surface = part.surfaces[i];
+        if (!is_plain_triangles(part, surface) || surface.modifier < 0)
+            continue;
+        if (static_cast<std::size_t>(surface.modifier) < counted_by_key) {
+            groups[i] = static_cast<std::uint32_t>(surface.modifier);
+        } else {
+            const auto next = static_cast<std::uint32_t>(triangles.size());
+            groups[i] = numbers.try_emplace(std::to_string(surface.modifier).append(":").append(surface.name), next)
+                            .first->second;
+            triangles.resize(counted_by_key + numbers.size(), 0);
+        }
+        triangles[groups[i]] += triangle_count(part, surface);
     }
+    for (std::uint32_t& group : groups)
+        if (group != no_group && triangles[group] < 2)
+            group = no_group;
     return groups;
 }
 
@@ -150,12 +166,9 @@ void PartRecovery::rebuild()
 
 std::size_t PartRecovery::run()
 {
-    std::size_t triangles = 0;
-    for (const Surface& surface : part_.surfaces) {
-        joined_.push_back(is_plain_triangles(part_, surface));
-        triangles += joined_.back() ? triangle_count(part_, surface) : 0;
-    }
-    if (triangles < 2)
+    for (const std::uint32_t group : groups_)
+        joined_.push_back(group != no_group);
+    if (std::find(joined_.begin(), joined_.end(), true) == joined_.end())
         return 0;
     join();
     while (hold_curved_meshes())
@@ -208,7 +221,7 @@ void join_triangles(Imported& imported)
         const std::size_t triangles = plain_triangles(part);
         if (triangles > most_triangles)
             held += triangles;
-        else
+        else if (triangles > 1)
             polygons += PartRecovery(part, groups_of(part, imported)).run();
     });
     if (polygons > 0)
