@@ -158,23 +158,20 @@ public:
     {
     }
     double shared_error() { return error_with(pilot_paths / same_paths_share, true); }
-    PilotErrors errors(double shared)
+    /// Far beyond what was looked at, a further look tells how errors really fall.
+    int samples_for(double shared, double accuracy)
     {
-        constexpr int times_fewer = 4;
-        const double found = error_with(pilot_paths, false), with_fewer = error_with(pilot_paths / times_fewer, false);
-        return {found, pilot_paths, shared, order_of(found, with_fewer, shared, times_fewer)};
-    }
-    /// Far beyond what was looked at, a second look tells how errors really fall.
-    int samples_for(PilotErrors pilot, double accuracy)
-    {
-        constexpr int far = 4;
-        int samples = lightwell::samples_for(pilot, accuracy, most_samples);
-        while (samples > far * pilot.samples) {
-            const double found = error_with(far * pilot.samples, false);
-            pilot = {found, far * pilot.samples, pilot.shared, order_of(found, pilot.found, pilot.shared, far)};
-            samples = lightwell::samples_for(pilot, accuracy, most_samples);
+        constexpr int times = 4;
+        int looked_at = pilot_paths;
+        double with_fewer = error_with(looked_at / times, false);
+        for (;; looked_at *= times) {
+            const double found = error_with(looked_at, false);
+            const PilotErrors pilot = pilot_errors(found, looked_at, shared, with_fewer, looked_at / times);
+            const int samples = lightwell::samples_for(pilot, accuracy, most_samples);
+            if (samples <= times * looked_at)
+                return samples;
+            with_fewer = found;
         }
-        return samples;
     }
 
 private:
@@ -246,7 +243,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         shared = pilot.shared_error();
     }
     if (settings.samples <= 0)
-        result.samples = pilot.samples_for(pilot.errors(shared), settings.accuracy);
+        result.samples = pilot.samples_for(shared, settings.accuracy);
     fixed_rays += rays.next();
     Teller teller(progress, "grid " + grid.name, receivers.size());
     const Some all = measure_some(task, result.samples, 1, settings.threads, teller);

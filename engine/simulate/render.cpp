@@ -259,8 +259,8 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
             return median_relative(lattice.values, lattice.errors);
         };
         const double shared = plain ? 0 : error_with(pilot_samples / same_paths_share, true);
-        result.samples =
-            samples_for({error_with(pilot_samples, false), pilot_samples, shared}, settings.accuracy, most_samples);
+        result.samples = samples_for(pilot_errors(error_with(pilot_samples, false), pilot_samples, shared),
+                                     settings.accuracy, most_samples);
     }
     result.work.fixed_rays = rays.next();
     Teller teller(progress, "view " + view.name, tiles_of(wanted.width, wanted.height).size());

@@ -41,23 +41,38 @@ int whole_replicates(int samples)
     return std::max(1, (samples + replicates - 1) / replicates) * replicates;
 }
 
-double order_of(double found, double found_with_fewer, double shared, double times_fewer) noexcept
+namespace {
+
+double without_shared(double found, double shared)
+{
+    return std::sqrt(std::fmax(found * found - shared * shared, 0));
+}
+
+} // namespace
+
+PilotErrors pilot_errors(double found, int samples, double shared) noexcept
+{
+    constexpr double least_share = 0.25; // of what was found: a smaller rest is lost in the noise of both
+    return {shared, std::fmax(without_shared(found, shared), least_share * found), samples, 0.5};
+}
+
+PilotErrors pilot_errors(double found, int samples, double shared, double found_with_fewer, int fewer) noexcept
 {
     constexpr double least = 0.5, most = 0.9; // independent samples; more than this is chance
-    const double own = found * found - shared * shared,
-                 own_with_fewer = found_with_fewer * found_with_fewer - shared * shared;
-    if (!(own > 0 && own_with_fewer > own))
-        return least;
-    return std::clamp(0.5 * std::log(own_with_fewer / own) / std::log(times_fewer), least, most);
+    const double times = static_cast<double>(samples) / fewer;
+    const double own_with_fewer = without_shared(found_with_fewer, shared);
+    PilotErrors pilot = pilot_errors(found, samples, shared);
+    pilot.own = std::fmax(pilot.own, own_with_fewer * std::pow(times, -most));
+    if (own_with_fewer > pilot.own)
+        pilot.order = std::clamp(std::log(own_with_fewer / pilot.own) / std::log(times), least, most);
+    return pilot;
 }
 
 int samples_for(const PilotErrors& pilot, double wanted, int most) noexcept
 {
     constexpr double least_own = 0.5; // of the wanted error
-    const double shared = pilot.shared;
-    const double own = std::sqrt(std::fmax(pilot.found * pilot.found - shared * shared, 0));
-    const double own_wanted = std::fmax(std::sqrt(std::fmax(wanted * wanted - shared * shared, 0)), least_own * wanted);
-    const double samples = pilot.samples * std::pow(own / own_wanted, 1 / pilot.order);
+    const double own_wanted = std::fmax(without_shared(wanted, pilot.shared), least_own * wanted);
+    const double samples = pilot.samples * std::pow(pilot.own / own_wanted, 1 / pilot.order);
     return whole_replicates(static_cast<int>(std::ceil(std::min(samples, static_cast<double>(most)))));
 }
 
