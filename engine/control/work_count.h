@@ -13,7 +13,8 @@ struct WorkCount {
 };
 
 /// @param cpu_seconds  of all threads, pilot runs included; at least the coarsest result is made, whatever it takes
-/// Error: the time is met within a factor of 2, as predictions are (tests/unit/control/work_count_test.cpp)
+/// Error: at most twice the time; down to a tenth of it where ambient light turns out cheaper than the pilot runs told
+/// (tests/cli/wishes_test.py)
 /// @throws as predict()
 WorkCount work_within(double cpu_seconds, const Simulation& simulation, const SensorGrid& grid,
                       const GridSettings& settings, const Progress& progress = {});
