@@ -248,13 +248,14 @@ void SceneBuilder::fill_ledger()
         const Reason outcome = outcomes_[i];
         if (!outcome)
             continue;
-        if (outcome == &made) {
-            imported_.ledger.made();
-            continue;
-        }
         const Entity& entity = drawing_.entities[i];
         const std::string& type = drawing_.types[entity.type];
-        imported_.ledger.skipped(type, drawing_.layers[entity.layer].name, outcome->text);
+        const std::string& layer = drawing_.layers[entity.layer].name;
+        if (outcome == &made) {
+            imported_.ledger.made(type, layer);
+            continue;
+        }
+        imported_.ledger.skipped(type, layer, outcome->text);
         if (outcome->loses_surfaces)
             imported_.report.add(Finding::unsupported, drawing_.place(entity), type + ": " + outcome->text);
     }

@@ -1,6 +1,7 @@
 #include "importers/formats/formats.h"
 
 #include "engine/base/errors.h"
+#include "importers/questions.h"
 
 namespace lightwell {
 namespace {
@@ -22,8 +23,11 @@ constexpr Format formats[] = {{recognize_gltf, import_gltf},
 Imported import_file(const std::filesystem::path& file, const ImportOptions& options)
 {
     for (const Format& format : formats)
-        if (format.recognize(file))
-            return format.import(file, options);
+        if (format.recognize(file)) {
+            Imported imported = format.import(file, options);
+            ask_about_sizes(imported, file.filename().string());
+            return imported;
+        }
     throw InputError(file.filename().string(), "content is none of the formats that can be read",
                      "expected DXF, OBJ, glTF, GLB, FBX, Collada, 3DS, PLY, STL, X3D, OFF or IFC 2x3");
 }

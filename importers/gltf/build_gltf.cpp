@@ -274,13 +274,13 @@ std::vector<Loaded> GltfBuilder::load(int index, const Use& first)
             GltfTriangles read = read_triangles(document_, primitive);
             without_area_ += read.without_area;
             if (read.mesh.triangles.empty())
-                imported_.ledger.skipped("primitive", layer, "zero area");
+                imported_.ledger.skipped("mesh", layer, "zero area");
             else
                 parts.push_back({&primitive, std::make_shared<const Mesh>(std::move(read.mesh)), i});
         } catch (const InputError& error) {
             if (first_fault_.empty() && std::string_view(error.what()).find(buffer_left_open) == std::string_view::npos)
                 first_fault_ = error.what();
-            imported_.ledger.skipped("primitive", layer, "damaged");
+            imported_.ledger.skipped("mesh", layer, "damaged");
             imported_.report.add(Finding::ignored, document_.name + ": mesh \"" + mesh.name + '"',
                                  std::string("primitive left out: ") + error.what());
         }
@@ -330,7 +330,7 @@ void GltfBuilder::place_once(const std::vector<Loaded>& parts, int mesh, const U
         const SurfaceKey key = key_of(*part.primitive, mesh, use.node);
         auto placed = std::make_shared<const Mesh>(transformed(*part.mesh, use.to_world));
         if (!all_finite(*placed)) {
-            imported_.ledger.unmake("primitive", key.layer, "placed beyond the range of numbers");
+            imported_.ledger.unmake("mesh", key.layer, "placed beyond the range of numbers");
             continue;
         }
         imported_.scene.root.add_mesh(std::move(placed), keys_.modifier_for(key), part_name(use.path, part, count));
@@ -371,7 +371,8 @@ void GltfBuilder::build_mesh(int mesh, const std::vector<Use>& uses)
     const std::vector<Loaded> parts = load(mesh, uses.front());
     if (parts.empty())
         return;
-    imported_.ledger.made(parts.size());
+    for (const Loaded& part : parts)
+        imported_.ledger.made("mesh", key_of(*part.primitive, mesh, uses.front().node).layer);
     std::vector<Use> copies;
     for (const Use& use : uses)
         if (invertible(use.to_world))
