@@ -28,7 +28,7 @@ LIGHT_ROWS = [
 ]
 IMPORT_ROWS = [
     {"importers"},
-    {"importers/dxf", "importers/obj", "importers/gltf", "importers/radiance", "importers/assimp"},
+    {"importers/dxf", "importers/obj", "importers/gltf", "importers/radiance", "importers/assimp", "importers/export"},
     {"importers/formats"},
     {"importers/project"},
 ]
