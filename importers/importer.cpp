@@ -1,5 +1,10 @@
 #include "importers/importer.h"
 
+#include "engine/base/errors.h"
+#include "engine/base/text.h"
+#include "importers/units.h"
+
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 
@@ -53,6 +58,21 @@ ModifierId KeyTable::find_or_add(const SurfaceKey& key, bool inherited)
         imported_.keys.push_back(key);
     }
     return entry->second;
+}
+
+RaisedLayer parse_raised_layer(const std::string& words, const std::string& place)
+{
+    const std::size_t equals = words.rfind('='); // layers may have one in their names
+    const std::string_view all{words};
+    const std::string_view layer = trimmed(all.substr(0, std::min(equals, all.size())));
+    const std::string_view height = equals == std::string::npos ? std::string_view{} : trimmed(all.substr(equals + 1));
+    const std::size_t digits = std::min(height.find_first_not_of("+-.0123456789"), height.size());
+    const auto number = parse_double(trimmed(height.substr(0, digits)));
+    if (layer.empty() || !number || !(*number > 0))
+        throw InputError{place, "\"" + words + "\" is no layer with a height above 0",
+                         "for example A-WALL=2.8 (metres) or *WALL*=2800mm"};
+    const std::string_view unit = trimmed(height.substr(digits));
+    return {std::string{layer}, *number * (unit.empty() ? 1 : parse_unit(std::string{unit}).value)};
 }
 
 } // namespace lightwell

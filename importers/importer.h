@@ -3,6 +3,7 @@
 #include "engine/base/report.h"
 #include "engine/base/spectrum.h"
 #include "engine/scene/scene.h"
+#include "importers/file_texture.h"
 
 #include <filesystem>
 #include <optional>
@@ -29,6 +30,8 @@ struct Imported {
     std::vector<SurfaceKey> keys; ///< keys[i] belongs to scene.modifiers[i], an Alias without target (or Inherited)
     /// Materials that the file itself describes (MTL, glTF), by the file's name, to be used when no rule matches.
     std::vector<std::pair<std::string, Material>> file_materials;
+    /// Pictures of those materials; their means are in the materials already.
+    std::vector<FileTexture> file_textures;
     std::string unit; ///< as reported: "mm (from $INSUNITS)", "m (glTF)", ...
     Ledger ledger;    ///< entities read = made + skipped
     /// Entities made into surfaces of keys[i]; for keys beyond its end there is one entity for each surface name. Only
@@ -37,11 +40,25 @@ struct Imported {
     Report report;
 };
 
+/// Outlines of a plan that are raised to walls.
+struct RaisedLayer {
+    std::string layer; ///< pattern, as in a layer map
+    double height_m;   ///< > 0
+};
+
+/// "A-WALL=2.8", "*WALL*=2800mm", "Mur=9 ft": a pattern of layer names and a height, in metres unless it has a unit.
+/// @param place  option or file and line, for the message
+/// @throws InputError without a layer, or unless the height is a number above 0
+RaisedLayer parse_raised_layer(const std::string& words, const std::string& place);
+
 /// How to read what a file does not say.
 struct ImportOptions {
-    std::optional<double> metres_per_unit; ///< overrides what the file says
-    std::string up;                        ///< "", "y" or "z": overrides the format's rule
-    double chord_tolerance_m = 0.0005;     ///< for curves that have no exact surface (ellipses, arcs bent into walls)
+    std::optional<double> metres_per_unit;       ///< overrides what the file says
+    std::string up;                              ///< "", "y" or "z": overrides the format's rule
+    bool keep_triangles = false;                 ///< triangles of one flat face stay triangles
+    std::optional<double> crease_angle_deg = {}; ///< curved meshes without normals get them across edges bent less
+    double chord_tolerance_m = 0.0005;    ///< for curves that have no exact surface (ellipses, arcs bent into walls)
+    std::vector<RaisedLayer> raised = {}; ///< DXF: the last rule that fits a layer counts
 };
 
 /// Collects keys: one modifier for each distinct key.

@@ -2,6 +2,7 @@
 
 #include "engine/accel/part_queries.h"
 #include "engine/base/random.h"
+#include "engine/base/tally.h"
 #include "materials/bsdf.h"
 
 #include <embree3/rtcore.h>
@@ -91,6 +92,7 @@ RayQueries& RayQueries::operator=(RayQueries&&) noexcept = default;
 
 bool RayQueries::closest(const Ray& ray, Hit& hit) const noexcept
 {
+    ++rays_of_thread.followed;
     hit = Hit{};
     Trace trace{};
     trace.t_max = ray.t_max;
@@ -107,6 +109,7 @@ bool RayQueries::closest(const Ray& ray, Hit& hit) const noexcept
 
 Spectrum RayQueries::transmittance(const Ray& ray) const noexcept
 {
+    ++rays_of_thread.shadow;
     PassedSurfaces passed;
     Trace trace{};
     trace.t_max = ray.t_max;

@@ -18,16 +18,58 @@ double area_m2(const BrightDiscs::Lit& piece)
     return pi * piece.radius_m * piece.radius_m;
 }
 
+/// Each piece takes in those of its plane within so many of its radii that are not brighter: where light is very
+/// uneven, pieces are small and many. @param pieces  brightest first
+std::vector<BrightDiscs::Lit> merged(const std::vector<BrightDiscs::Lit>& pieces, double radii)
+{
+    constexpr double same_plane = 0.94; // cosine
+    std::vector<BrightDiscs::Lit> discs;
+    std::vector<double> reach_m, light_W;
+    for (const BrightDiscs::Lit& piece : pieces) {
+        std::size_t i = 0;
+        for (; i < discs.size(); ++i) {
+            const Vec3 way = piece.centre - discs[i].centre;
+            if (dot(way, way) < reach_m[i] * reach_m[i] && dot(piece.normal, discs[i].normal) > same_plane)
+                break;
+        }
+        const double found_W = piece.irradiance * area_m2(piece);
+        if (i == discs.size()) {
+            discs.push_back(piece);
+            reach_m.push_back(radii * piece.radius_m);
+            light_W.push_back(found_W);
+            continue;
+        }
+        discs[i].radius_m = std::max(discs[i].radius_m, length(piece.centre - discs[i].centre) + piece.radius_m);
+        light_W[i] += found_W;
+    }
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        discs[i].irradiance = light_W[i] / area_m2(discs[i]);
+    return discs;
+}
+
 } // namespace
 
 BrightDiscs::BrightDiscs(std::vector<Lit> pieces)
 {
-    std::sort(pieces.begin(), pieces.end(), [](const Lit& a, const Lit& b) { return a.irradiance > b.irradiance; });
+    const auto brighter = [](const Lit& a, const Lit& b) { return a.irradiance > b.irradiance; };
+    std::sort(pieces.begin(), pieces.end(), brighter);
     double light = 0, area = 0;
     for (const Lit& piece : pieces) {
         light += piece.irradiance * area_m2(piece);
         area += area_m2(piece);
     }
+    constexpr double first_radii = 2, most_radii = 32; // wider discs would aim at what is dark
+    bool too_many = keep_brightest(pieces, light, area);
+    for (double radii = first_radii; too_many && radii <= most_radii; radii *= 2) {
+        std::vector<Lit> discs = merged(pieces, radii);
+        std::sort(discs.begin(), discs.end(), brighter);
+        too_many = keep_brightest(discs, light, area);
+    }
+}
+
+bool BrightDiscs::keep_brightest(const std::vector<Lit>& pieces, double light, double area)
+{
+    discs_.clear();
     double kept_light = 0, kept_area = 0;
     for (const Lit& piece : pieces) {
         if (kept_light >= share_of_light * light || discs_.size() == most_discs)
@@ -37,8 +79,10 @@ BrightDiscs::BrightDiscs(std::vector<Lit> pieces)
         discs_.push_back(piece);
     }
     constexpr double least_of_light = 0.5; // when the number of discs ends the list
-    if (!(light > 0) || kept_light < least_of_light * light || kept_area > most_of_area * area)
+    const bool too_many = light > 0 && kept_light < least_of_light * light;
+    if (too_many || !(light > 0) || kept_area > most_of_area * area)
         discs_.clear();
+    return too_many;
 }
 
 BrightDiscs::Shares BrightDiscs::shares(const Point& from, const Direction& normal) const noexcept

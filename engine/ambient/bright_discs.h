@@ -21,7 +21,8 @@ public:
         double irradiance = 0; ///< photopic, W/m^2
     };
     BrightDiscs() = default;
-    /// Keeps the brightest pieces when they are few and give most of the light; else none.
+    /// Keeps the brightest pieces when they are few and give most of the light, neighbours taken together if need be;
+    /// else none.
     explicit BrightDiscs(std::vector<Lit> pieces);
 
     static constexpr std::size_t most_discs = 48;
@@ -39,6 +40,8 @@ public:
     double density_per_sr(const Shares& shares, const Direction& direction) const noexcept;
 
 private:
+    /// @param pieces  brightest first   @return  whether there are too many to have most of the light in few discs
+    bool keep_brightest(const std::vector<Lit>& pieces, double light, double area);
     std::vector<Lit> discs_;
 };
 

@@ -20,7 +20,7 @@ constexpr double covered_share = 0.65;
 constexpr std::size_t first_batch = 64, largest_batch = 1024;
 /// Keeps random numbers of surveys, rays and direct light apart.
 constexpr std::uint64_t survey_salt = 0x73757276, ray_salt = 0x72617973, direct_salt = 0x64697265,
-                        start_salt = 0x73746172;
+                        start_salt = 0x73746172, peak_salt = 0x7065616b;
 
 AmbientSite surveyed(const SurfacePlace& place, std::uint64_t key, const HemisphereRays& rays, double size_m,
                      const DeepSettings& settings)
@@ -42,6 +42,46 @@ AmbientSite surveyed(const SurfacePlace& place, std::uint64_t key, const Hemisph
     site.harmonic_m = std::min(closeness > 0 ? survey_rays / closeness : infinity, open_share * size_m);
     site.reach_m[0] = site.reach_m[1] = settings.reach_share * site.harmonic_m;
     return site;
+}
+
+/// A random place within a site's reach. @return  false when the surface does not go on there
+bool place_around(const AmbientSite& site, const SurfacePlace& centre, const HemisphereRays& rays, PathRandom& random,
+                  SurfacePlace& found)
+{
+    constexpr double lift_share = 0.1; // of the reach: as far as a site answers off its plane
+    const Frame frame = frame_about(site.normal);
+    const DiscPoint disc = uniform_disc(random.pair());
+    const Vec3 offset = (frame.x * disc.x + frame.y * disc.y) * site.reach_m[0];
+    return rays.beside(centre, offset, lift_share * site.reach_m[0], found);
+}
+
+/// Makes a site's reach smaller where lamps light it as unevenly as nothing else: the light that comes back from
+/// things nearby is as uneven, and a mean over more than that would put it where it is not.
+/// @param bright_W_per_m2  photopic; darker places are left as they are
+/// @return  whether it was too wide
+bool narrow_to_peak(AmbientSite& site, const SurfacePlace& centre, std::uint64_t key, double bright_W_per_m2,
+                    const HemisphereRays& rays, std::uint64_t seed)
+{
+    constexpr int most_halvings = 5;
+    constexpr std::uint32_t looks = 8;
+    constexpr double most_ratio = 6; // of the brightest to the dimmest
+    for (int n = 0; n < most_halvings; ++n) {
+        double brightest = 0, dimmest = infinity;
+        for (std::uint32_t k = 0; k < looks; ++k) {
+            PathRandom random(mix_bits(seed, peak_salt), key, looks * static_cast<std::uint32_t>(n) + k);
+            SurfacePlace there = centre;
+            if (k > 0 && !place_around(site, centre, rays, random, there))
+                continue;
+            const double lit = photopic(rays.direct(there, random).lamps);
+            brightest = std::max(brightest, lit);
+            dimmest = std::min(dimmest, lit);
+        }
+        if (!(brightest > bright_W_per_m2 && brightest > most_ratio * dimmest))
+            return n > 0;
+        site.reach_m[0] *= 0.5;
+        site.reach_m[1] *= 0.5;
+    }
+    return true;
 }
 
 /// Tilts the weights so that values which change linearly over the surface are met exactly, as far as that leaves no
@@ -103,16 +143,27 @@ bool DeepField::covers(const Point& at, const Direction& normal) const noexcept
 void DeepField::place(const std::vector<SurfacePlace>& candidates, const HemisphereRays& rays, double size_m,
                       const DeepSettings& settings)
 {
+    candidates_ = candidates;
+    size_m_ = size_m;
+    bright_W_per_m2_ = infinity;
+    place_uncovered(rays, settings);
+}
+
+void DeepField::place_uncovered(const HemisphereRays& rays, const DeepSettings& settings)
+{
     std::size_t batch = first_batch;
-    for (std::size_t first = 0; first < candidates.size() && sites_.size() < settings.most_sites; first += batch) {
+    for (std::size_t first = 0; first < candidates_.size() && sites_.size() < settings.most_sites; first += batch) {
         if (first > 0)
             batch = std::min(2 * batch, largest_batch);
-        const std::size_t count = std::min(batch, candidates.size() - first);
+        const std::size_t count = std::min(batch, candidates_.size() - first);
         std::vector<AmbientSite> surveys(count);
         parallel_for(count, settings.threads, [&](std::size_t i) {
-            const SurfacePlace& r = candidates[first + i];
-            if (!covers(r.position, r.normal))
-                surveys[i] = surveyed(r, first + i, rays, size_m, settings);
+            const SurfacePlace& r = candidates_[first + i];
+            if (covers(r.position, r.normal))
+                return;
+            surveys[i] = surveyed(r, first + i, rays, size_m_, settings);
+            if (std::isfinite(bright_W_per_m2_))
+                narrow_to_peak(surveys[i], r, first + i, bright_W_per_m2_, rays, settings.seed);
         });
         const std::size_t before = sites_.size();
         for (std::size_t i = 0; i < count && sites_.size() < settings.most_sites; ++i) {
@@ -124,7 +175,7 @@ void DeepField::place(const std::vector<SurfacePlace>& candidates, const Hemisph
             if (!usable || covered)
                 continue;
             sites_.push_back(site);
-            places_.push_back(candidates[first + i]);
+            places_.push_back(candidates_[first + i]);
         }
         tree_.build(sites_);
     }
@@ -168,17 +219,13 @@ std::size_t DeepField::weights(const Point& at, const Direction& normal, Weight*
 std::vector<DeepField::Start> DeepField::starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
                                                 std::uint64_t seed) const
 {
-    constexpr double lift_share = 0.1; // of the reach: as far as a site answers off its plane
     const AmbientSite& s = sites_[site];
-    const Frame frame = frame_about(s.normal);
     std::vector<Start> found;
     double total = 0;
     for (std::uint32_t n = 0; n < count; ++n) {
         PathRandom random(mix_bits(seed, start_salt), site, n);
-        const DiscPoint disc = uniform_disc(random.pair());
-        const Vec3 offset = (frame.x * disc.x + frame.y * disc.y) * s.reach_m[0];
         SurfacePlace there;
-        if (!rays.beside(places_[site], offset, lift_share * s.reach_m[0], there))
+        if (!place_around(s, places_[site], rays, random, there))
             continue;
         Weight around[most_weights];
         const std::size_t sites = weights(there.position, there.normal, around);
@@ -227,14 +274,17 @@ void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const H
                             const DeepSettings& settings, std::vector<double>& other_share)
 {
     const std::size_t count = sites_.size();
-    direct_.resize(count);
+    direct_.assign(count, {});
     std::vector<double> unevenness(count);
-    lit_W_per_m2_.resize(count);
+    lit_W_per_m2_.assign(count, 0);
+    brightest_.assign(count, 0);
+    tested_share_.clear();
     parallel_for(count, settings.threads, [&](std::size_t i) {
         double squares = 0;
         for (std::uint32_t k = 0; k < from[i].size(); ++k) {
             PathRandom random(mix_bits(settings.seed, direct_salt), i, k);
             const DirectIrradiance direct = rays.direct(from[i][k].place, random);
+            brightest_[i] = std::max(brightest_[i], photopic(direct.lamps));
             direct_[i] += direct.lamps * from[i][k].weight;
             squares += photopic(direct.lamps) * photopic(direct.lamps) * from[i][k].weight;
             lit_W_per_m2_[i] += photopic(direct.lamps + direct.suns) * from[i][k].weight;
@@ -253,24 +303,59 @@ void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const H
                                          : least_tested);
 }
 
+bool DeepField::narrow_peaks(const HemisphereRays& rays, const DeepSettings& settings)
+{
+    constexpr double bright = 8; // times the mean: what is less of a peak moves too little light to matter
+    double light = 0, area = 0;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+        const double share = sites_[i].reach_m[0] * sites_[i].reach_m[0];
+        light += photopic(direct_[i]) * share;
+        area += share;
+    }
+    const double limit = bright * light / area;
+    std::vector<char> narrowed(sites_.size());
+    parallel_for(sites_.size(), settings.threads, [&](std::size_t i) {
+        if (light > 0 && brightest_[i] > limit)
+            narrowed[i] = narrow_to_peak(sites_[i], places_[i], i, limit, rays, settings.seed) ? 1 : 0;
+    });
+    const bool any = std::find(narrowed.begin(), narrowed.end(), 1) != narrowed.end();
+    if (any) {
+        bright_W_per_m2_ = limit;
+        tree_.build(sites_);
+    }
+    return any;
+}
+
+DeepField::RowStarts DeepField::find_starts(const HemisphereRays& rays, const DeepSettings& settings, std::size_t each)
+{
+    RowStarts rows{std::vector<std::vector<Start>>(sites_.size()), std::vector<double>(sites_.size(), 1.0)};
+    parallel_for(sites_.size(), settings.threads,
+                 [&](std::size_t i) { rows.from[i] = starts(i, rays, each, settings.seed); });
+    find_direct(rows.from, rays, settings, rows.other_share);
+    return rows;
+}
+
 void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& settings)
 {
+    const auto each = static_cast<std::size_t>(std::max(1, settings.rays / replicates));
+    RowStarts rows = find_starts(rays, settings, each);
+    if (narrow_peaks(rays, settings)) {
+        place_uncovered(rays, settings);
+        rows = find_starts(rays, settings, each);
+    }
+    candidates_ = {};
     const std::size_t count = sites_.size();
     std::array<FixedPoint, replicates> systems;
     for (FixedPoint& system : systems) {
         system.known.resize(count);
         system.rows.resize(count);
     }
-    const auto each = static_cast<std::size_t>(std::max(1, settings.rays / replicates));
-    std::vector<std::vector<Start>> from(count);
-    std::vector<double> other_share(count, 1.0);
-    parallel_for(count, settings.threads, [&](std::size_t i) { from[i] = starts(i, rays, each, settings.seed); });
-    find_direct(from, rays, settings, other_share);
     // The rays use the direct light of all sites.
     parallel_for(count, settings.threads, [&](std::size_t i) {
         settings.check();
         for (std::size_t r = 0; r < replicates; ++r)
-            trace_row(i, from[i], rays, other_share[i], {mix_bits(settings.seed, ray_salt), r, each}, systems[r]);
+            trace_row(i, rows.from[i], rays, rows.other_share[i], {mix_bits(settings.seed, ray_salt), r, each},
+                      systems[r]);
     });
     parallel_for(replicates, settings.threads, [&](std::size_t r) { ambient_[r] = solve(systems[r]); });
 }

@@ -80,6 +80,12 @@ private:
         SurfacePlace place;
         double weight; ///< of all starts of the site: 1
     };
+    struct RowStarts {
+        std::vector<std::vector<Start>> from; ///< by site
+        std::vector<double> other_share;      ///< of the hemisphere that shows no lamp
+    };
+    /// @param each  starts of a site
+    RowStarts find_starts(const HemisphereRays& rays, const DeepSettings& settings, std::size_t each);
     struct RowRays {
         std::uint64_t seed;
         std::size_t replicate, count;
@@ -90,6 +96,11 @@ private:
     void find_direct(const std::vector<std::vector<Start>>& from, const HemisphereRays& rays,
                      const DeepSettings& settings, std::vector<double>& other_share);
     void find_bright();
+    /// Adds a site for each candidate that none covers.
+    void place_uncovered(const HemisphereRays& rays, const DeepSettings& settings);
+    /// Makes the sites smaller on which lamps shine far more than elsewhere and unevenly. @return  whether there are
+    /// any
+    bool narrow_peaks(const HemisphereRays& rays, const DeepSettings& settings);
     bool covers(const Point& at, const Direction& normal) const noexcept;
     std::vector<Start> starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
                               std::uint64_t seed) const;
@@ -100,6 +111,10 @@ private:
     std::array<std::vector<Spectrum>, replicates> ambient_;
     std::vector<Spectrum> direct_;
     std::vector<double> tested_share_, lit_W_per_m2_;
+    std::vector<double> brightest_; ///< photopic irradiance by lamps within each site's reach, W/m^2
+    std::vector<SurfacePlace> candidates_;
+    double size_m_ = 0;
+    double bright_W_per_m2_ = infinity; ///< above that, sites are no wider than the light is even
     BrightDiscs bright_;
 };
 

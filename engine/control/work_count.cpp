@@ -9,7 +9,7 @@ namespace lightwell {
 namespace {
 
 /// Share of the time that pilot runs may take, and the most, which is enough for any.
-constexpr double pilot_share = 0.1, most_pilot_s = 2 * usual_pilot_s;
+constexpr double pilot_share = 0.1, most_pilot_rays = 2 * usual_pilot_rays;
 /// The first pilot runs lead to this accuracy; when the time is enough for finer ones, more follow from where it is.
 constexpr double first_accuracy = 0.0625;
 /// Runs stay a little below the time asked for: predictions err to both sides.
@@ -28,20 +28,20 @@ template <class Item, class Settings>
 WorkCount fill(double cpu_seconds, const Simulation& simulation, const Item& item, Settings settings, double items,
                const Progress& progress)
 {
-    const double pilot_s = std::min(pilot_share * cpu_seconds, most_pilot_s);
+    const double pilot_rays = std::min(pilot_share * cpu_seconds * usual_rays_a_second, most_pilot_rays);
     settings.samples = 0;
     settings.accuracy = first_accuracy;
-    Prediction found = predict(simulation, item, settings, pilot_s / 2, progress);
-    double spent = found.pilot_cpu_seconds;
-    const double reachable = work_of(found, items, cpu_seconds - spent).accuracy;
-    if (reachable < first_accuracy / 2 && spent < pilot_s) {
+    Prediction found = predict(simulation, item, settings, pilot_rays / 2, progress);
+    StageCost spent = found.pilot;
+    const double reachable = work_of(found, items, cpu_seconds - spent.seconds).accuracy;
+    if (reachable < first_accuracy / 2 && spent.rays < pilot_rays) {
         settings.accuracy = reachable;
-        found = predict(simulation, item, settings, pilot_s - spent, progress);
-        spent += found.pilot_cpu_seconds;
+        found = predict(simulation, item, settings, pilot_rays - spent.rays, progress);
+        spent = {spent.rays + found.pilot.rays, spent.seconds + found.pilot.seconds};
     }
-    WorkCount work = work_of(found, items, cpu_seconds - spent);
-    work.cpu_seconds += spent;
-    work.prediction.pilot_cpu_seconds = spent;
+    WorkCount work = work_of(found, items, cpu_seconds - spent.seconds);
+    work.cpu_seconds += spent.seconds;
+    work.prediction.pilot = spent;
     return work;
 }
 
@@ -53,13 +53,14 @@ WorkCount work_of(const Prediction& prediction, double items, double cpu_seconds
     const double available = used_share * std::max(cpu_seconds, 0.0);
     WorkCount work;
     work.accuracy = two_digits(accuracy_within(model, items, available));
-    const double left = available - model.ambient_s(work.accuracy) - model.fixed_s;
-    const double samples = model.per_sample_s > 0 ? left / (model.per_sample_s * items) : 0;
+    const double left = available - model.ambient_s(work.accuracy) - model.fixed.seconds;
+    const double samples = model.sample.seconds > 0 ? left / (model.sample.seconds * items) : 0;
     work.samples =
         static_cast<int>(std::clamp(samples, double{replicates}, double{most_samples})) / replicates * replicates;
-    work.cpu_seconds =
-        model.ambient_s(work.accuracy) + model.fixed_s + model.per_sample_s * items * static_cast<double>(work.samples);
+    const double taken = items * static_cast<double>(work.samples);
+    work.cpu_seconds = model.ambient_s(work.accuracy) + model.fixed.seconds + model.sample.seconds * taken;
     work.prediction = prediction;
+    work.prediction.rays = model.ambient_rays(work.accuracy) + model.fixed.rays + model.sample.rays * taken;
     work.prediction.samples = work.samples;
     work.prediction.cpu_seconds = work.cpu_seconds;
     work.prediction.error = model.error_at(work.accuracy);

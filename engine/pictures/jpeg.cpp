@@ -6,6 +6,7 @@
 
 #include <cstdio> // before jpeglib.h, which needs it
 #include <jpeglib.h>
+#include <limits>
 
 namespace lightwell {
 namespace {
@@ -54,12 +55,18 @@ struct Decoder {
     Decoder& operator=(const Decoder&) = delete;
 };
 
-DisplayPicture decoded(Decoder& decoder, const std::string& place, std::size_t bytes)
+DisplayPicture decoded(Decoder& decoder, const std::string& place, std::size_t bytes, std::size_t pixel_bound)
 {
+    constexpr unsigned largest_denominator = 8; // of the library's scales
     jpeg_decompress_struct& info = decoder.info;
     jpeg_read_header(&info, TRUE);
     check_picture_size(place, info.image_width, info.image_height, channels, bytes);
     info.out_color_space = JCS_RGB;
+    info.scale_num = 1;
+    info.scale_denom = 1;
+    while (info.scale_denom < largest_denominator &&
+           std::size_t{info.image_width / info.scale_denom} * (info.image_height / info.scale_denom) > pixel_bound)
+        info.scale_denom *= 2;
     jpeg_start_decompress(&info);
     DisplayPicture picture{static_cast<int>(info.output_width), static_cast<int>(info.output_height), {}};
     const std::size_t row_bytes = std::size_t{info.output_width} * channels;
@@ -74,15 +81,20 @@ DisplayPicture decoded(Decoder& decoder, const std::string& place, std::size_t b
 
 } // namespace
 
+DisplayPicture read_jpeg(std::string_view bytes, const std::string& place, std::size_t pixel_bound)
+{
+    try {
+        Decoder decoder(bytes);
+        return decoded(decoder, place, bytes.size(), pixel_bound);
+    } catch (const Damaged& damage) {
+        throw InputError{place, "cannot be read as JPEG: " + damage.message, "give a complete .jpg file"};
+    }
+}
+
 DisplayPicture read_jpeg(const std::filesystem::path& file)
 {
     const MappedFile mapped(file);
-    try {
-        Decoder decoder(mapped.bytes());
-        return decoded(decoder, file.string(), mapped.bytes().size());
-    } catch (const Damaged& damage) {
-        throw InputError{file.string(), "cannot be read as JPEG: " + damage.message, "give a complete .jpg file"};
-    }
+    return read_jpeg(mapped.bytes(), file.string(), std::numeric_limits<std::size_t>::max());
 }
 
 } // namespace lightwell

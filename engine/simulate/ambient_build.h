@@ -52,10 +52,17 @@ public:
 
     /// Uses what has been built so far.
     const PathTracer& tracer() const noexcept { return tracer_; }
+    /// What was built; rays are counted by the caller.
     WorkCounts work() const noexcept
     {
-        return {deep_.size(),  deep_.bright().size(), cache_.records().size(), deep_kept_ ? deep_.size() : 0,
-                records_kept_, secondary_.size()};
+        WorkCounts work;
+        work.deep_sites = deep_.size();
+        work.bright_discs = deep_.bright().size();
+        work.ambient_records = cache_.records().size();
+        work.sites_kept = deep_kept_ ? deep_.size() : 0;
+        work.records_kept = records_kept_;
+        work.secondary_sources = secondary_.size();
+        return work;
     }
     const DeepField& deep() const noexcept { return deep_; }
     const AmbientCache& cache() const noexcept { return cache_; }

@@ -167,7 +167,7 @@ public:
     /// Far beyond what was looked at, a second look tells how errors really fall.
     int samples_for(PilotErrors pilot, double accuracy)
     {
-        constexpr int far = 8;
+        constexpr int far = 4;
         int samples = lightwell::samples_for(pilot, accuracy, most_samples);
         while (samples > far * pilot.samples) {
             const double found = error_with(far * pilot.samples, false);
@@ -220,7 +220,10 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
                          plain ? "" : settings.ambient_file.file);
     const bool own_field = !plain && !techniques.cache && settings.ambient_file.file.empty();
     double deep_accuracy = std::min(first_deep * settings.accuracy, coarsest_deep);
+    RayLaps rays;
+    RayCounts ambient_rays, fixed_rays;
     const auto build = [&] {
+        fixed_rays += rays.next();
         progress.tell("ambient light, grid " + grid.name, 0);
         if (own_field)
             ambient.rebuild_deep(deep_accuracy, receivers.size(), from_sensors(receivers));
@@ -228,6 +231,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
             ambient.build_deep(receivers.size(), from_sensors(receivers));
         if (techniques.cache)
             add_records(ambient, receivers, grid.spacing_m);
+        ambient_rays += rays.next();
     };
     if (!plain)
         build();
@@ -243,8 +247,10 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     }
     if (settings.samples <= 0)
         result.samples = pilot.samples_for(pilot.errors(shared), settings.accuracy);
+    fixed_rays += rays.next();
     Teller teller(progress, "grid " + grid.name, receivers.size());
     const Some all = measure_some(task, result.samples, 1, settings.threads, teller);
+    const RayCounts value_rays = rays.next();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         result.values.push_back(Illuminance{all.values[i]});
         result.standard_errors.push_back(Illuminance{all.errors[i]});
@@ -261,7 +267,11 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
             points.push_back({all.values[k * step], checks.values[k], checks.errors[k]});
         result.bias = bias_of(points);
     }
+    fixed_rays += rays.next();
     result.work = ambient.work();
+    result.work.ambient_rays = ambient_rays;
+    result.work.fixed_rays = fixed_rays;
+    result.work.value_rays = value_rays;
     result.report = ambient.report();
     result.seconds = seconds_since(start);
     return result;

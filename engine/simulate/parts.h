@@ -12,6 +12,7 @@ namespace lightwell {
 
 struct SimulationParts {
     Scene scene;
+    Plan plan;
     RayQueries rays;
     SourceList sources;
     VirtualSources virtual_sources;
@@ -21,10 +22,21 @@ struct SimulationParts {
     Preparation preparation;
 
     SimulationParts(Scene&& s, const Preparation& p)
-        : scene(with_open_sheets(std::move(s), p.secondary)), rays(scene), sources(scene, rays),
-          virtual_sources(scene, sources, {p.virtual_sources ? p.virtual_depth : 0}), secondary(scene, p.secondary),
+        : scene(with_open_sheets(std::move(s), p.secondary)),
+          plan(plan_for(needs_of(scene), {PlanWish{}.accuracy, p.virtual_sources ? p.virtual_depth : 0})), rays(scene),
+          sources(scene, rays), virtual_sources(scene, sources, virtual_settings()), secondary(scene, p.secondary),
           tracer(scene, rays, sources, virtual_sources, {}, p.direct), box(bounds(scene)), preparation(p)
     {
+    }
+
+private:
+    /// Bent meshes may have flat parts; a depth out of range is left for VirtualSources to refuse.
+    VirtualSettings virtual_settings() const
+    {
+        const int depth = plan.wish.virtual_depth;
+        const bool wanted = plan.uses(StageKind::virtual_sources) || plan.needs.curved_mirrors || depth < 0 ||
+                            depth > Reflections::most;
+        return {wanted ? depth : 0};
     }
 };
 

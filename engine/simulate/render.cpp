@@ -240,6 +240,7 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
     AmbientBuild ambient(*parts_, effort_of(settings), settings.techniques, stop_when_asked(progress),
                          plain ? "" : settings.ambient_file.file);
+    RayLaps rays;
     if (!plain) {
         Teller teller(progress, "ambient light, view " + view.name, 5);
         build(ambient, {camera, parts_->tracer, settings.width, settings.height}, settings.techniques, settings.threads,
@@ -247,6 +248,8 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     }
     PixelTask pixel{camera, plain ? parts_->tracer : ambient.tracer(), settings.width, settings.height, settings.seed};
     PictureResult result;
+    result.work = ambient.work();
+    result.work.ambient_rays = rays.next();
     result.samples = whole_replicates(settings.samples);
     if (settings.samples <= 0) {
         Teller teller(progress, "pilot run", 2 * pilot_columns * pilot_rows);
@@ -259,16 +262,18 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
         result.samples =
             samples_for({error_with(pilot_samples, false), pilot_samples, shared}, settings.accuracy, most_samples);
     }
+    result.work.fixed_rays = rays.next();
     Teller teller(progress, "view " + view.name, tiles_of(wanted.width, wanted.height).size());
     const double tolerance = plain || !settings.techniques.image_sampling ? 0 : settings.accuracy;
     result.picture = render_tiles(pixel, wanted, result.samples, tolerance, settings.threads, store, teller);
+    result.work.value_rays = rays.next();
     result.median_relative_error = median_relative_error(result.picture);
     if (!plain) {
         Teller check(progress, "check, view " + view.name, check_columns * check_rows);
         result.bias = check_bias({camera, parts_->tracer, settings.width, settings.height, mix_bits(settings.seed)},
                                  wanted, result.picture, settings.threads, check);
     }
-    result.work = ambient.work();
+    result.work.fixed_rays += rays.next();
     result.report = ambient.report();
     result.seconds = seconds_since(start);
     return result;

@@ -2,6 +2,7 @@
 
 #include "engine/simulate/parts.h"
 #include "engine/simulate/replicates.h"
+#include "materials/bsdf.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -105,6 +106,32 @@ const Scene& Simulation::scene() const noexcept
 const Preparation& Simulation::preparation() const noexcept
 {
     return parts_->preparation;
+}
+
+const Plan& Simulation::plan() const noexcept
+{
+    return parts_->plan;
+}
+
+PreparedStages Simulation::prepared() const
+{
+    const SourceList& sources = parts_->sources;
+    PreparedStages found;
+    found.lamps = sources.lamps().size();
+    found.suns = sources.suns().size();
+    found.openings = sources.guide().openings();
+    found.mirrors = parts_->virtual_sources.mirrors().mirrors().size();
+    found.virtual_sources = parts_->virtual_sources.images().size();
+    for (const auto& [modifier, usage] : usage_by_modifier(scene())) {
+        const ResolvedMaterial resolved = resolve(scene(), modifier);
+        found.patterns += resolved.brightness != nullptr || resolved.varies ? 1 : 0;
+        if (resolved.material == nullptr || is_emitter(*resolved.material))
+            continue;
+        const Lobes lobes = Bsdf(*resolved.material, true).lobes();
+        found.see_through += lobes.transparent_to_shadows ? 1 : 0;
+        found.both_sides += lobes.diffuse_transmittance.is_black() ? 0 : 1;
+    }
+    return found;
 }
 
 std::size_t Simulation::query_bytes() const noexcept

@@ -3,8 +3,10 @@
 #include "engine/base/progress.h"
 #include "engine/base/quantities.h"
 #include "engine/base/report.h"
+#include "engine/base/tally.h"
 #include "engine/direct/settings.h"
 #include "engine/pictures/picture.h"
+#include "engine/plan/plan.h"
 #include "engine/scene/scene.h"
 #include "engine/sources/secondary_sources.h"
 
@@ -71,6 +73,18 @@ struct WorkCounts {
     std::size_t deep_sites = 0, bright_discs = 0, ambient_records = 0;
     std::size_t sites_kept = 0, records_kept = 0; ///< of these, taken from the file of kept light
     std::size_t secondary_sources = 0;            ///< openings that rays were aimed at
+    // Rays by what they were for: the same for any number of threads.
+    RayCounts ambient_rays; ///< before any value: sites, records
+    RayCounts fixed_rays;   ///< to choose the samples and to check the bias
+    RayCounts value_rays;   ///< for the values themselves
+
+    RayCounts rays() const noexcept
+    {
+        RayCounts sum = ambient_rays;
+        sum += fixed_rays;
+        sum += value_rays;
+        return sum;
+    }
 };
 
 /// Where finished tiles go, and where those of an interrupted run come from. May be called from several threads.
@@ -124,6 +138,17 @@ struct Preparation {
     SecondarySettings secondary = {}; ///< openings that rays are aimed at
 };
 
+/// What was made ready for a scene, by stage: 0 for those that its plan does without.
+struct PreparedStages {
+    std::size_t lamps = 0, suns = 0;
+    std::size_t openings = 0;        ///< panes at which rays to the sky are aimed
+    std::size_t mirrors = 0;         ///< flat ones that are followed
+    std::size_t virtual_sources = 0; ///< images of lamps and suns
+    std::size_t see_through = 0;     ///< materials that shadow rays pass, weakened
+    std::size_t both_sides = 0;      ///< materials whose back is looked at too: translucent ones
+    std::size_t patterns = 0;        ///< by which sources vary
+};
+
 struct SimulationParts;
 
 /// A scene made ready for light: ray queries, list of sources. Rendering does not change it.
@@ -139,6 +164,9 @@ public:
 
     const Scene& scene() const noexcept;
     const Preparation& preparation() const noexcept;
+    /// What the scene needs, by which stages were built or left out.
+    const Plan& plan() const noexcept;
+    PreparedStages prepared() const;
     /// Bytes held beside the scene itself by the ray queries.
     std::size_t query_bytes() const noexcept;
     /// @throws InputError for an unusable view, Cancelled when progress says stop

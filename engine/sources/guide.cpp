@@ -1,6 +1,7 @@
 #include "engine/sources/guide.h"
 
 #include "engine/base/random.h"
+#include "engine/base/tally.h"
 #include "engine/sources/weighted_choice.h"
 
 #include <algorithm>
@@ -94,7 +95,9 @@ const Guide::Cell& Guide::cell(const Point& at) const
     const std::size_t index = (z * l.n[1] + y) * l.n[0] + x;
     std::call_once(l.learned[index], [&] {
         const Vec3 corner{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+        const RayCounts before = rays_of_thread; // whoever asks first: this belongs to the scene, not to his run
         learn(l.box.low + corner * l.cell_m, l.cell_m, index, l.cells[index]);
+        rays_of_thread = before;
     });
     return l.cells[index];
 }

@@ -27,6 +27,8 @@ public:
         std::size_t portal_count = 0;
         double portal_share = 0; ///< of the sky's rays
     };
+    /// Panes that are known; 0: rays to the sky are not aimed at any.
+    std::size_t openings() const noexcept { return portals_.size(); }
     /// Thread-safe; the same cell for the same place, whoever asks first.
     const Cell& cell(const Point& at) const;
 

@@ -1,5 +1,7 @@
 #include "engine/sources/portals.h"
 
+#include "engine/sources/placed_surfaces.h"
+
 #include <algorithm>
 
 namespace lightwell {
@@ -84,18 +86,19 @@ std::vector<Portal> find_portals(const Scene& scene, const std::vector<std::stri
     for (const std::string& name : modifiers)
         wanted.push_back(scene.find_modifier(name));
     std::vector<Portal> portals;
-    visit_expanded(scene, [&](const Part& part, const Surface& surface, const Affine& to_world, ModifierId modifier) {
-        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), modifier) == wanted.end())
-            return;
-        const Material* material = resolve(scene, modifier).material;
-        Rectangle r;
-        if (material == nullptr || !std::holds_alternative<Glass>(*material) ||
-            !flat_rectangle(outline_of(part, surface, to_world), r))
-            return;
-        const Vec3 area = cross(r.edge_x, r.edge_y);
-        portals.push_back({r.corner, r.edge_x, r.edge_y, r.corner + (r.edge_x + r.edge_y) * 0.5, normalized(area),
-                           length(area), 0.5 * length(r.edge_x + r.edge_y)});
-    });
+    visit_placed(
+        scene, [](const Material& material) { return std::holds_alternative<Glass>(material); },
+        [&](const PlacedSurface& placed) {
+            const bool named =
+                wanted.empty() || std::find(wanted.begin(), wanted.end(), placed.modifier) != wanted.end();
+            Rectangle r;
+            if (named && flat_rectangle(outline_of(placed.part, placed.surface, placed.to_world), r)) {
+                const Vec3 area = cross(r.edge_x, r.edge_y);
+                portals.push_back({r.corner, r.edge_x, r.edge_y, r.corner + (r.edge_x + r.edge_y) * 0.5,
+                                   normalized(area), length(area), 0.5 * length(r.edge_x + r.edge_y)});
+            }
+            return true;
+        });
     std::stable_sort(portals.begin(), portals.end(),
                      [](const Portal& a, const Portal& b) { return a.area_m2 > b.area_m2; });
     std::size_t count = std::min(portals.size(), most_portals);

@@ -1,20 +1,14 @@
 #include "engine/sources/source_list.h"
 
 #include "engine/base/frame.h"
-#include "engine/base/random.h"
 #include "engine/geometry/triangulate.h"
-#include "engine/scene/expansion.h"
+#include "engine/sources/placed_surfaces.h"
 
 namespace lightwell {
 namespace {
 
 /// Wider distant sources are part of the sky: one sample a point cannot tell their brightness.
 constexpr double widest_sun_deg = 12;
-
-std::uint64_t place_key(std::uint64_t path, std::uint32_t surface)
-{
-    return mix_bits(path, surface);
-}
 
 bool is_rectangle(const std::vector<Point>& p)
 {
@@ -86,73 +80,27 @@ double SunSource::density_per_sr(const Direction& direction) const noexcept
     return dot(apart, apart) <= chord * chord ? 1 / cone_solid_angle_sr(half) : 0;
 }
 
-/// Walks the instances; prototypes without emitters are walked once and then skipped.
+/// Lamps, in the order of the scene.
 struct SourceList::Finder {
-    const Scene& scene;
     SourceList& list;
-    std::vector<char> may_emit; ///< by prototype
 
-    Finder(const Scene& s, SourceList& l) : scene(s), list(l)
+    VariedLight light_of(const PlacedSurface& placed) const
     {
-        for (const Part& part : scene.prototypes)
-            may_emit.push_back(part_may_emit(part));
-    }
-    bool part_may_emit(const Part& part) const
-    {
-        for (const Surface& surface : part.surfaces) {
-            if (surface.shape == Shape::instance) {
-                const Instance& instance = part.instances[surface.index];
-                if (may_emit[instance.prototype])
-                    return true;
-                continue;
-            }
-            const Material* material = resolve(scene, surface.modifier).material;
-            const bool inherited =
-                surface.modifier != void_modifier &&
-                std::holds_alternative<Inherited>(scene.modifiers[static_cast<std::size_t>(surface.modifier)].what);
-            if (inherited || (material != nullptr && is_emitter(*material)))
-                return true;
-        }
-        return false;
-    }
-    struct Place {
-        const Place* outer;
-        const std::vector<Binding>* bindings;
-    };
-    void walk(const Part& part, const Affine& to_world, std::uint64_t path, const Place* place)
-    {
-        for (std::uint32_t i = 0; i < part.surfaces.size(); ++i) {
-            const Surface& surface = part.surfaces[i];
-            if (surface.shape == Shape::instance) {
-                const Instance& instance = part.instances[surface.index];
-                const Place inner{place, &instance.bindings};
-                if (may_emit[instance.prototype])
-                    walk(scene.prototypes[instance.prototype], compose(to_world, instance.to_parent),
-                         instance_path(path, i), &inner);
-                continue;
-            }
-            ModifierId modifier = surface.modifier;
-            for (const Place* p = place; p != nullptr; p = p->outer)
-                modifier = bound_modifier(scene, modifier, *p->bindings);
-            const Material* material = resolve(scene, modifier).material;
-            if (surface.shape != Shape::source && material != nullptr && is_emitter(*material) &&
-                !emitted_radiance(*material).is_black())
-                add(part, surface, to_world, *material, light_of(modifier, place, to_world), place_key(path, i));
-        }
-    }
-    VariedLight light_of(ModifierId modifier, const Place* place, const Affine& to_world) const
-    {
-        if (!list.varied_->varies(modifier))
+        if (!list.varied_->varies(placed.modifier))
             return {};
-        return {list.varied_.get(), modifier, place != nullptr ? std::optional(inverse(to_world)) : std::nullopt};
+        const bool in_instance = placed.path != 0;
+        return {list.varied_.get(), placed.modifier,
+                in_instance ? std::optional(inverse(placed.to_world)) : std::nullopt};
     }
-    void add(const Part& part, const Surface& surface, const Affine& to_world, const Material& material,
-             VariedLight varied, std::uint64_t key)
+    void add(const PlacedSurface& placed)
     {
+        const Part& part = placed.part;
+        const Surface& surface = placed.surface;
+        const Affine& to_world = placed.to_world;
         const double scale = similarity_scale(to_world);
         const auto keep = [&](LocalSource::Shape shape) {
-            list.lamp_by_place_[key] = static_cast<int>(list.lamps_.size());
-            list.lamps_.emplace_back(std::move(shape), material, std::move(varied));
+            list.lamp_by_place_[place_key(placed.path, placed.index)] = static_cast<int>(list.lamps_.size());
+            list.lamps_.emplace_back(std::move(shape), placed.material, light_of(placed));
         };
         if (surface.shape == Shape::polygon || surface.shape == Shape::mesh) {
             FlatEmitter emitter = surface.shape == Shape::polygon
@@ -179,12 +127,21 @@ struct SourceList::Finder {
                 surface.shape == Shape::cup || surface.shape == Shape::tube});
         }
     }
+    void add_all(const Scene& scene)
+    {
+        visit_placed(
+            scene,
+            [](const Material& material) { return is_emitter(material) && !emitted_radiance(material).is_black(); },
+            [this](const PlacedSurface& placed) {
+                add(placed);
+                return true;
+            });
+    }
 };
 
 SourceList::SourceList(const Scene& scene, const RayQueries& rays) : varied_(std::make_unique<VariedMaterials>(scene))
 {
-    Finder finder(scene, *this);
-    finder.walk(scene.root, Affine{}, 0, nullptr);
+    Finder{*this}.add_all(scene);
     lamp_tree_ = std::make_unique<LampTree>(lamps_);
     std::vector<const Surface*> wide;
     for (const Surface& surface : scene.root.surfaces) {

@@ -3,6 +3,7 @@
 #include "engine/base/text.h"
 #include "importers/assimp/build_foreign.h"
 #include "importers/assimp/foreign_format.h"
+#include "importers/assimp/ply_header.h"
 #include "importers/assimp/run_child.h"
 #include "importers/importer.h"
 #include "importers/units.h"
@@ -226,6 +227,8 @@ Imported import_assimp(const std::filesystem::path& file, const ImportOptions& o
         throw InputError(place, "content is none of FBX, Collada, 3DS, PLY, STL, X3D, OFF, IFC 2x3");
     if (format->refusal != nullptr)
         throw InputError(place, format->refusal);
+    if (std::string_view(format->extension) == "ply")
+        check_ply_header(bytes, place);
     const std::string named = place + " (" + format->name + ")";
     ForeignScene scene =
         scene_from_bytes(run_import_program(file, format->extension, child_limits(bytes.size()), named), named);

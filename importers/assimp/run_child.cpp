@@ -20,8 +20,6 @@ namespace {
 
 constexpr const char* program_name = "lightwell-import-assimp";
 constexpr int answer_descriptor = 3;
-/// Waiting time as a multiple of processor time: on a busy machine the child gets only a share.
-constexpr int patience = 20;
 constexpr unsigned long long megabyte = 1'000'000;
 
 /// A descriptor that is closed with the object.
@@ -115,7 +113,7 @@ std::string seconds_text(const ChildLimits& limits)
 std::string read_answer(int descriptor, const ChildLimits& limits, const std::string& place)
 {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::seconds(limits.processor_seconds * patience);
+    const auto end = Clock::now() + std::chrono::seconds(limits.waiting_seconds);
     std::string answer;
     std::vector<char> buffer(1 << 18);
     for (;;) {
@@ -155,10 +153,11 @@ std::string read_answer(int descriptor, const ChildLimits& limits, const std::st
 
 ChildLimits child_limits(unsigned long long file_bytes)
 {
-    constexpr unsigned long long least_seconds = 2, seconds_per_megabyte = 2;
+    constexpr unsigned long long least_seconds = 2, seconds_per_megabyte = 2, patience = 20;
     constexpr unsigned long long least_memory = 200 * megabyte, memory_per_byte = 4;
     const unsigned long long memory = least_memory + memory_per_byte * file_bytes;
-    return {least_seconds + seconds_per_megabyte * (file_bytes / megabyte), memory, memory};
+    const unsigned long long seconds = least_seconds + seconds_per_megabyte * (file_bytes / megabyte);
+    return {seconds, patience * seconds, memory, memory / 2};
 }
 
 std::string run_import_program(const std::filesystem::path& file, const std::string& format, const ChildLimits& limits,

@@ -8,10 +8,12 @@ namespace lightwell {
 /// What a file may cost to read: more means that it is damaged or a trap.
 struct ChildLimits {
     unsigned long long processor_seconds;
-    unsigned long long memory_bytes; ///< of the child's own data
+    unsigned long long waiting_seconds; ///< more than the above: on a busy machine the child gets only a share
+    unsigned long long memory_bytes;    ///< of the child's own data
     unsigned long long answer_bytes;
 };
-/// By the size of the file: 2 s and 2 s/MB; 200 MB and 4 times the file, the answer no more than the memory.
+/// By the size of the file: 2 s and 2 s/MB, twenty times that to wait; 200 MB and 4 times the file, the answer at most
+/// half of that.
 ChildLimits child_limits(unsigned long long file_bytes);
 
 /// Runs the import program on a file and returns its answer. A crash, a hang or too large an answer ends the program,

@@ -122,17 +122,17 @@ Vec3 scale_of(const Fields& fields, bool& has_zero)
 InsertFrame insert_frame(const Drawing& drawing, const Entity& insert)
 {
     InsertFrame frame;
-    const Fields fields{drawing.values_of(insert)};
+    const Fields fields{insert.values};
     const Affine axes = compose(object_axes(fields.extrusion()), Affine::translate(fields.point(10)));
     const Affine turned = compose(axes, Affine::rotate(2, fields.get(50) * radians_per_degree));
     const Vec3 scale = scale_of(fields, frame.has_zero_scale);
-    const Point base = drawing.blocks[drawing.block_of_name[insert.block_name]].base;
-    frame.first = compose(compose(turned, Affine::scale(scale)), Affine::translate(-base));
+    const Block& block = drawing.blocks[drawing.block_of_name[insert.block_name]];
+    frame.first = compose(compose(turned, Affine::scale(scale * block.scale)), Affine::translate(-block.base));
     frame.column_step = turned.x * fields.get(44);
     frame.row_step = turned.y * fields.get(45);
     frame.columns = copies_along(fields.get(70, 1), fields.get(44));
     frame.rows = copies_along(fields.get(71, 1), fields.get(45));
-    frame.largest_scale = max_abs(scale);
+    frame.largest_scale = max_abs(scale) * block.scale;
     if (!std::isnormal(frame.first.determinant()))
         throw InputError{
             drawing.place(insert),
@@ -170,7 +170,7 @@ Reason find_inserted(const Drawing& drawing, const Entity& insert, const BlockUs
     inserted.block = insert.block_name == no_index ? no_index : drawing.block_of_name[insert.block_name];
     if (inserted.block == no_index)
         return &undefined;
-    if (drawing.blocks[inserted.block].is_external)
+    if (drawing.blocks[inserted.block].source != BlockSource::drawing)
         return &external;
     const bool takes_layer = around && insert.layer == 0;
     inserted.hides_layer_zero = takes_layer ? around->hides_layer_zero : drawing.layers[insert.layer].is_off;

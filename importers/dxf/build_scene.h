@@ -7,8 +7,9 @@
 namespace lightwell::dxf {
 
 /// Fills imported.scene, keys, ledger and report from a drawing: blocks become prototypes, inserts instances.
-/// @param chord_tolerance_m  for arcs that become facets, > 0, in the model (copies of blocks scaled)
+/// @param options  its chord tolerance, > 0, holds in the model (copies of blocks scaled), and so do the heights that
+///                 layers are raised by; the unit stands beside it
 /// @throws InputError: blocks that contain themselves, too many copies, vertex indices out of range
-void build_scene(const Drawing& drawing, MetresPerUnit unit, bool y_up, double chord_tolerance_m, Imported& imported);
+void build_scene(const Drawing& drawing, MetresPerUnit unit, const ImportOptions& options, Imported& imported);
 
 } // namespace lightwell::dxf

@@ -35,10 +35,7 @@ void add_polyface_face(const Drawing& drawing, const Entity& entity, const Field
                              "save the drawing again or delete the entity"};
         corners.push_back(points[static_cast<std::size_t>(number) - 1]);
     }
-    if (corners.size() == 4)
-        shapes.add_quad(corners[0], corners[1], corners[2], corners[3]);
-    else
-        shapes.add_polygon(std::move(corners)); // two corners are an edge and add nothing
+    shapes.add_face(corners); // two corners are an edge and add nothing
 }
 
 /// The grid of a polygon mesh: rows of columns points, with smoothing its fitted points.
@@ -68,7 +65,7 @@ Grid grid_of(const Drawing& drawing, const Entity& entity, const VertexList& lis
 
 } // namespace
 
-VertexList::VertexList(std::span<const Value> values) : header(values)
+VertexList::VertexList(Values values) : header(values)
 {
     const auto begins = [](const Value& value) { return value.code == vertex_begins; };
     auto at = std::find_if(values.begin(), values.end(), begins);
@@ -88,11 +85,11 @@ Reason add_face(const Fields& fields, Shapes& shapes)
     return shapes.empty() ? &no_area : nullptr;
 }
 
-Reason add_solid(const Fields& fields, Shapes& shapes)
+Reason add_solid(const Fields& fields, const ShapeOptions& options, Shapes& shapes)
 {
     const Affine axes = object_axes(fields.extrusion());
     const auto drawn = four_corners(fields);
-    const double thickness = fields.get(39);
+    const double thickness = thickness_of(fields, options);
     // Drawn in the order of a bow tie: the outline runs first, second, fourth, third corner.
     std::vector<Point> outline;
     for (const std::size_t i : {0, 1, 3, 2})
@@ -115,7 +112,7 @@ Reason add_solid(const Fields& fields, Shapes& shapes)
 
 Reason add_polyface(const Drawing& drawing, const Entity& entity, Shapes& shapes)
 {
-    const VertexList list{drawing.values_of(entity)};
+    const VertexList list{entity.values};
     const auto is_face = [&](std::size_t i) {
         const int flags = Fields{list.vertices[i]}.flags(70);
         return (flags & polyface_record) && !(flags & mesh_vertex);
@@ -126,14 +123,15 @@ Reason add_polyface(const Drawing& drawing, const Entity& entity, Shapes& shapes
             points.push_back(Fields{list.vertices[i]}.point(10));
     for (std::size_t i = 0; i < list.vertices.size(); ++i)
         if (is_face(i))
-            add_polyface_face(drawing, entity, Fields{list.vertices[i]}, list.places[i], points, shapes);
+            add_polyface_face(drawing, entity, Fields{list.vertices[i]},
+                              place_in_file(list.places[i], entity.place >> file_bit), points, shapes);
     return shapes.empty() ? &no_area : nullptr;
 }
 
 Reason add_polygon_mesh(const Drawing& drawing, const Entity& entity, Shapes& shapes)
 {
     constexpr int closed_in_rows = 1, closed_in_columns = 32;
-    const VertexList list{drawing.values_of(entity)};
+    const VertexList list{entity.values};
     const Grid grid = grid_of(drawing, entity, list);
     const int flags = list.header.flags(70);
     const std::size_t last_row = flags & closed_in_rows ? grid.rows : grid.rows - 1;

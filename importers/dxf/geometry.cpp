@@ -57,7 +57,7 @@ double chord_error(double radius, double sweep_rad, int chords)
     return 2 * radius * s * s;
 }
 
-double distance_from_plane(const std::vector<Point>& corners)
+double distance_from_plane(std::span<const Point> corners)
 {
     if (corners.size() < 4)
         return 0;

@@ -3,7 +3,7 @@
 #include "engine/base/transform.h"
 #include "engine/base/vector.h"
 
-#include <vector>
+#include <span>
 
 namespace lightwell::dxf {
 
@@ -35,6 +35,6 @@ int chord_count(double radius, double sweep_rad, double tolerance);
 double chord_error(double radius, double sweep_rad, int chords);
 
 /// Largest distance of the corners from their mean plane; 0 for three corners.
-double distance_from_plane(const std::vector<Point>& corners);
+double distance_from_plane(std::span<const Point> corners);
 
 } // namespace lightwell::dxf

@@ -110,7 +110,7 @@ std::vector<Strip> strips_of(const FlatPolyline& line, double chord_tolerance, D
 {
     std::vector<Strip> strips;
     const std::size_t count = line.corners.size(), segments = line.is_closed ? count : count - 1;
-    for (std::size_t i = 0; i < segments; ++i) {
+    for (std::size_t i = 0; i < segments && deviations.chords <= most_facets; ++i) {
         const Corner& from = line.corners[i];
         const Point& to = line.corners[(i + 1) % count].at;
         if (!(length(to - from.at) > 0))
@@ -190,7 +190,7 @@ private:
         std::reverse(outline.begin(), outline.end());
         for (Point& point : outline)
             point = point - height_;
-        shapes_.add_polygon(std::move(outline));
+        shapes_.add_polygon(outline);
     }
     void add_wall(const Point& from, const Point& to)
     {
@@ -228,29 +228,29 @@ Reason add_polyline_shapes(const FlatPolyline& line, double chord_tolerance, Sha
 }
 
 /// What LWPOLYLINE and POLYLINE have in common.
-FlatPolyline polyline_with(const Fields& header)
+FlatPolyline polyline_with(const Fields& header, const ShapeOptions& options)
 {
     constexpr int closed = 1;
     FlatPolyline line;
     line.axes = object_axes(header.extrusion());
-    line.thickness = std::fabs(header.get(39));
+    line.thickness = std::fabs(thickness_of(header, options));
     line.is_closed = header.flags(70) & closed;
     return line;
 }
 
 /// Elevation of the lower edge.
-double lower_edge(const Fields& header, double elevation)
+double lower_edge(const Fields& header, const ShapeOptions& options, double elevation)
 {
-    return elevation + std::fmin(header.get(39), 0.0);
+    return elevation + std::fmin(thickness_of(header, options), 0.0);
 }
 
 } // namespace
 
-Reason add_lwpolyline(std::span<const Value> values, double chord_tolerance, Shapes& shapes)
+Reason add_lwpolyline(Values values, const ShapeOptions& options, Shapes& shapes)
 {
     const Fields header{values};
-    FlatPolyline line = polyline_with(header);
-    const double z = lower_edge(header, header.get(38)), width = std::fmax(0.0, header.get(43));
+    FlatPolyline line = polyline_with(header, options);
+    const double z = lower_edge(header, options, header.get(38)), width = std::fmax(0.0, header.get(43));
     for (const Value& value : values) {
         if (value.code == 10)
             line.corners.push_back({{value.number, 0, z}, 0, width, width});
@@ -265,15 +265,15 @@ Reason add_lwpolyline(std::span<const Value> values, double chord_tolerance, Sha
         else if (value.code == 42)
             line.corners.back().bulge = value.number;
     }
-    return add_polyline_shapes(line, chord_tolerance, shapes);
+    return add_polyline_shapes(line, options.chord_tolerance, shapes);
 }
 
-Reason add_flat_polyline(std::span<const Value> values, double chord_tolerance, Shapes& shapes)
+Reason add_flat_polyline(Values values, const ShapeOptions& options, Shapes& shapes)
 {
     constexpr int spline_frame = 16; // control points of a fitted curve, whose own points follow
     const VertexList list{values};
-    FlatPolyline line = polyline_with(list.header);
-    const double z = lower_edge(list.header, list.header.get(30));
+    FlatPolyline line = polyline_with(list.header, options);
+    const double z = lower_edge(list.header, options, list.header.get(30));
     for (const auto& vertex : list.vertices) {
         const Fields fields{vertex};
         if (fields.flags(70) & spline_frame)
@@ -283,7 +283,21 @@ Reason add_flat_polyline(std::span<const Value> values, double chord_tolerance, 
                                 std::fmax(0.0, fields.get(40, list.header.get(40))),
                                 std::fmax(0.0, fields.get(41, list.header.get(41)))});
     }
-    return add_polyline_shapes(line, chord_tolerance, shapes);
+    return add_polyline_shapes(line, options.chord_tolerance, shapes);
+}
+
+Reason add_space_polyline(Values values, const ShapeOptions& options, Shapes& shapes)
+{
+    constexpr int closed = 1, spline_frame = 16;
+    if (options.raised_by == 0)
+        return &thin;
+    const VertexList list{values};
+    std::vector<Point> line;
+    for (const Values& vertex : list.vertices)
+        if (!(Fields{vertex}.flags(70) & spline_frame))
+            line.push_back(Fields{vertex}.point(10));
+    shapes.add_walls(line, list.header.flags(70) & closed, {0, 0, options.raised_by});
+    return shapes.empty() ? &no_area : nullptr;
 }
 
 } // namespace lightwell::dxf

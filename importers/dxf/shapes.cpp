@@ -1,5 +1,6 @@
 #include "importers/dxf/shapes.h"
 
+#include "engine/geometry/triangulate.h"
 #include "importers/dxf/geometry.h"
 
 #include <algorithm>
@@ -13,7 +14,10 @@ constexpr double smallest_area_share = 1e-12;
 /// Corners of a drawing written with six decimals are this far from their plane, as a share of the extent.
 constexpr double planar_within = 1e-6;
 
-double extent(const std::vector<Point>& corners)
+/// Ears are cut in a time that grows with the square of the corners; beyond this a fan must do.
+constexpr std::size_t most_corners_cut = 100;
+
+double extent(std::span<const Point> corners)
 {
     Box box;
     for (const Point& corner : corners)
@@ -21,17 +25,10 @@ double extent(const std::vector<Point>& corners)
     return box.diagonal();
 }
 
-bool has_area(const std::vector<Point>& corners)
+bool has_area(std::span<const Point> corners)
 {
     const double size = extent(corners);
     return length(polygon_area_vector(corners.data(), corners.size())) > smallest_area_share * size * size;
-}
-
-void merge_equal_neighbours(std::vector<Point>& corners)
-{
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    while (corners.size() > 1 && corners.front() == corners.back())
-        corners.pop_back();
 }
 
 /// Where the segments a-b and c-d of one plane cross; nothing when they do not.
@@ -47,66 +44,17 @@ std::optional<Point> crossing(const Point& a, const Point& b, const Point& c, co
     return a + u * along;
 }
 
-Reason add_line(const Fields& fields, Shapes& shapes)
-{
-    const double thickness = fields.get(39);
-    if (thickness == 0)
-        return &thin;
-    const Vec3 height = object_axes(fields.extrusion()).z * thickness;
-    const Point from = fields.point(10), to = fields.point(11);
-    shapes.add_polygon({from, to, to + height, from + height});
-    return shapes.empty() ? &no_area : nullptr;
-}
-
-Reason add_circle(const Fields& fields, Shapes& shapes)
-{
-    const double thickness = fields.get(39), radius = fields.get(40);
-    if (thickness == 0)
-        return &thin;
-    if (!(radius > 0))
-        return &no_area;
-    const Affine axes = object_axes(fields.extrusion());
-    const Point centre = axes.point(fields.point(10));
-    shapes.add_cylinder(centre, centre + axes.z * thickness, radius, Shape::cylinder);
-    shapes.add_caps(centre, axes.z * thickness, 0, radius);
-    return nullptr;
-}
-
-Reason add_arc(const Fields& fields, double chord_tolerance, Shapes& shapes)
-{
-    const double thickness = fields.get(39), radius = fields.get(40);
-    if (thickness == 0)
-        return &thin;
-    if (!(radius > 0))
-        return &no_area;
-    double sweep_deg = std::fmod(fields.get(51) - fields.get(50), 360);
-    if (sweep_deg <= 0)
-        sweep_deg += 360;
-    const Arc arc{fields.point(10), radius, fields.get(50) * radians_per_degree, sweep_deg * radians_per_degree};
-    const Affine axes = object_axes(fields.extrusion());
-    const Vec3 height = axes.z * thickness;
-    const int chords = chord_count(radius, arc.sweep_rad, chord_tolerance);
-    for (int i = 0; i < chords; ++i) {
-        const Point from = axes.point(arc.at(static_cast<double>(i) / chords));
-        const Point to = axes.point(arc.at((i + 1.0) / chords));
-        shapes.add_polygon({from, to, to + height, from + height});
-    }
-    shapes.deviations.chords += static_cast<std::size_t>(chords);
-    shapes.deviations.chord_error = chord_error(radius, arc.sweep_rad, chords);
-    return nullptr;
-}
-
-Reason add_polyline(const Drawing& drawing, const Entity& entity, double chord_tolerance, Shapes& shapes)
+Reason add_polyline(const Drawing& drawing, const Entity& entity, const ShapeOptions& options, Shapes& shapes)
 {
     constexpr int in_space = 8, polygon_mesh = 16, polyface = 64;
-    const int flags = VertexList{drawing.values_of(entity)}.header.flags(70);
+    const int flags = VertexList{entity.values}.header.flags(70);
     if (flags & polyface)
         return add_polyface(drawing, entity, shapes);
     if (flags & polygon_mesh)
         return add_polygon_mesh(drawing, entity, shapes);
     if (flags & in_space)
-        return &thin;
-    return add_flat_polyline(drawing.values_of(entity), chord_tolerance, shapes);
+        return add_space_polyline(entity.values, options, shapes);
+    return add_flat_polyline(entity.values, options, shapes);
 }
 
 } // namespace
@@ -117,32 +65,37 @@ void Shapes::clear()
     sizes_.clear();
     cones.clear();
     rings.clear();
+    meshes.clear();
     deviations = {};
 }
 
-void Shapes::add_polygon(std::vector<Point> corners)
+void Shapes::add_polygon(std::span<const Point> corners)
 {
-    merge_equal_neighbours(corners);
-    if (corners.size() < 3 || !has_area(corners))
-        return;
-    points_.insert(points_.end(), corners.begin(), corners.end());
-    sizes_.push_back(static_cast<std::uint32_t>(corners.size()));
+    const auto first = static_cast<std::ptrdiff_t>(points_.size());
+    std::unique_copy(corners.begin(), corners.end(), std::back_inserter(points_));
+    while (points_.size() > static_cast<std::size_t>(first) + 1 &&
+           points_[static_cast<std::size_t>(first)] == points_.back())
+        points_.pop_back();
+    const std::span<const Point> kept{points_.begin() + first, points_.end()};
+    if (kept.size() < 3 || !has_area(kept))
+        points_.erase(points_.begin() + first, points_.end());
+    else
+        sizes_.push_back(static_cast<std::uint32_t>(kept.size()));
 }
 
 void Shapes::add_quad(const Point& a, const Point& b, const Point& c, const Point& d)
 {
-    std::vector<Point> corners{a, b, c, d};
-    merge_equal_neighbours(corners);
-    if (corners.size() < 4) {
-        add_polygon(std::move(corners));
+    const Point corners[] = {a, b, c, d};
+    if (a == b || b == c || c == d || d == a) {
+        add_polygon(corners);
         return;
     }
     const double distance = distance_from_plane(corners);
     if (distance > planar_within * extent(corners)) {
         const bool along_ac = length(c - a) <= length(d - b);
-        add_polygon(along_ac ? std::vector<Point>{a, b, c} : std::vector<Point>{a, b, d});
-        add_polygon(along_ac ? std::vector<Point>{a, c, d} : std::vector<Point>{b, c, d});
-        ++deviations.split_quads;
+        add_polygon({a, b, along_ac ? c : d});
+        add_polygon({along_ac ? a : b, c, d});
+        ++deviations.split_faces;
         deviations.out_of_plane = std::fmax(deviations.out_of_plane, distance);
     } else if (const auto at = crossing(a, b, c, d)) {
         add_polygon({d, a, *at});
@@ -151,8 +104,46 @@ void Shapes::add_quad(const Point& a, const Point& b, const Point& c, const Poin
         add_polygon({a, b, *other});
         add_polygon({c, d, *other});
     } else {
-        add_polygon(std::move(corners));
+        add_polygon(corners);
     }
+}
+
+void Shapes::add_face(const std::vector<Point>& corners)
+{
+    if (corners.size() == 4) {
+        add_quad(corners[0], corners[1], corners[2], corners[3]);
+        return;
+    }
+    const double distance = distance_from_plane(corners);
+    if (distance > planar_within * extent(corners))
+        cut_into_triangles(corners, distance);
+    else
+        add_polygon(corners);
+}
+
+void Shapes::cut_into_triangles(const std::vector<Point>& corners, double distance)
+{
+    // Seen along the mean normal: ears can be cut only from what is flat.
+    const Direction normal = normalized(polygon_area_vector(corners.data(), corners.size()));
+    std::vector<Point> flat;
+    for (const Point& corner : corners)
+        flat.push_back(corner - normal * dot(normal, corner - corners[0]));
+    if (corners.size() <= most_corners_cut && normal != Vec3{})
+        for (const auto& [a, b, c] : triangulate(flat.data(), flat.size()))
+            add_polygon({corners[a], corners[b], corners[c]});
+    else
+        for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+            add_polygon({corners[0], corners[i], corners[i + 1]});
+    ++deviations.split_faces;
+    deviations.out_of_plane = std::fmax(deviations.out_of_plane, distance);
+}
+
+void Shapes::add_walls(const std::vector<Point>& line, bool closed, const Vec3& height)
+{
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        add_polygon({line[i], line[i + 1], line[i + 1] + height, line[i] + height});
+    if (closed && line.size() > 2)
+        add_polygon({line.back(), line.front(), line.front() + height, line.back() + height});
 }
 
 void Shapes::add_cylinder(const Point& from, const Point& to, double radius, Shape cylinder_or_tube)
@@ -188,24 +179,65 @@ Vec3 Fields::point(int code, const Vec3& otherwise) const
     return {get(code, otherwise.x), get(code + 10, otherwise.y), get(code + 20, otherwise.z)};
 }
 
-Reason add_shapes(const Drawing& drawing, const Entity& entity, double chord_tolerance, Shapes& shapes)
+std::vector<Point> points_with(int code, Values values)
 {
-    const Fields fields{drawing.values_of(entity)};
+    std::vector<Point> points;
+    for (const Value& value : values)
+        if (value.code == code)
+            points.push_back({value.number, 0, 0});
+        else if (!points.empty() && (value.code == code + 10 || value.code == code + 20))
+            points.back()[(value.code - code) / 10] = value.number;
+    return points;
+}
+
+std::vector<double> numbers_with(int code, Values values)
+{
+    std::vector<double> numbers;
+    for (const Value& value : values)
+        if (value.code == code)
+            numbers.push_back(value.number);
+    return numbers;
+}
+
+double thickness_of(const Fields& fields, const ShapeOptions& options)
+{
+    constexpr double level_above = 0.999; // cosine: 2.6 degrees
+    const double drawn = fields.get(39);
+    if (drawn != 0 || options.raised_by == 0)
+        return drawn;
+    const double up = object_axes(fields.extrusion()).z.z;
+    return std::fabs(up) < level_above ? 0 : std::copysign(options.raised_by, up);
+}
+
+Reason add_shapes(const Drawing& drawing, const Entity& entity, const ShapeOptions& options, Shapes& shapes)
+{
+    const Fields fields{entity.values};
     switch (entity.kind) {
     case Kind::line:
-        return add_line(fields, shapes);
+        return add_line(fields, options, shapes);
     case Kind::lwpolyline:
-        return add_lwpolyline(drawing.values_of(entity), chord_tolerance, shapes);
+        return add_lwpolyline(entity.values, options, shapes);
     case Kind::polyline:
-        return add_polyline(drawing, entity, chord_tolerance, shapes);
+        return add_polyline(drawing, entity, options, shapes);
+    case Kind::multiline:
+        return add_multiline(entity.values, options, shapes);
     case Kind::face:
         return add_face(fields, shapes);
     case Kind::solid:
-        return add_solid(fields, shapes);
+        return add_solid(fields, options, shapes);
     case Kind::circle:
-        return add_circle(fields, shapes);
+        return add_circle(fields, options, shapes);
     case Kind::arc:
-        return add_arc(fields, chord_tolerance, shapes);
+        return add_arc(fields, options, shapes);
+    case Kind::ellipse:
+        return add_ellipse(fields, options, shapes);
+    case Kind::spline:
+        return add_spline(entity.values, options, shapes);
+    case Kind::hatch:
+        return add_hatch(entity.values, options, shapes);
+    case Kind::mesh:
+        return add_mesh(drawing, entity, options, shapes);
+    case Kind::light:
     case Kind::insert:
     case Kind::other:
         break;

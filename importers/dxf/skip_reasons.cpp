@@ -15,15 +15,14 @@ constexpr TypesOfReason known_types[] = {
     {{"annotation"},
      "TEXT MTEXT RTEXT ARCALIGNEDTEXT ATTDEF ATTRIB DIMENSION ARC_DIMENSION LARGE_RADIAL_DIMENSION LEADER MLEADER "
      "MULTILEADER TOLERANCE SHAPE ACAD_TABLE VIEWPORT"},
-    {{"a curve without thickness has no area"}, "POINT RAY XLINE MLINE SPLINE ELLIPSE HELIX"},
-    {{"hatches are not modelled", true}, "HATCH MPOLYGON"},
-    {{"subdivision meshes are not modelled", true}, "MESH"},
+    {{"a curve without thickness has no area"}, "POINT RAY XLINE HELIX"},
+    {{"filled polygons of maps are not modelled; explode them", true}, "MPOLYGON"},
     {{"solids and surfaces in ACIS form are not modelled; explode them to faces", true},
      "3DSOLID REGION BODY SURFACE EXTRUDEDSURFACE LOFTEDSURFACE REVOLVEDSURFACE SWEPTSURFACE PLANESURFACE "
      "NURBSURFACE"},
     {{"pictures and embedded objects are not modelled", true},
      "IMAGE WIPEOUT OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY"},
-    {{"lights of the drawing are not modelled", true}, "LIGHT SUN"},
+    {{"the sun of the drawing is not taken over; give place and time", true}, "SUN"},
     {{"objects of other applications are not modelled", true}, "ACAD_PROXY_ENTITY"},
     {{"vertex without a polyline", true}, "VERTEX"},
 };

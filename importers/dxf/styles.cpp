@@ -49,11 +49,8 @@ Style inserted_style(const Drawing& drawing, const Style& inside, const Style& i
     return style;
 }
 
-ModifierId ModifierTable::modifier_for(const SurfaceClass& what)
+SurfaceKey ModifierTable::key_of(const SurfaceClass& what) const
 {
-    const auto [entry, fresh] = known_.try_emplace(what, void_modifier);
-    if (!fresh)
-        return entry->second;
     const Style& style = what.style;
     SurfaceKey key;
     key.layer = style.layer == no_index ? drawing_.layers[0].name : drawing_.layers[style.layer].name;
@@ -63,8 +60,24 @@ ModifierId ModifierTable::modifier_for(const SurfaceClass& what)
         key.colour = style.true_colour >= 0 ? true_colour(style.true_colour) : palette_colour(style.colour);
     else // tells the place-holders apart
         key.group = style.colour_from == Style::ColourFrom::insert ? "BYBLOCK" : "BYLAYER";
-    entry->second = style.depends_on_insert() ? keys_.inherited(key) : keys_.modifier_for(key);
+    return key;
+}
+
+ModifierId ModifierTable::modifier_for(const SurfaceClass& what)
+{
+    const auto [entry, fresh] = known_.try_emplace(what, void_modifier);
+    if (fresh)
+        entry->second =
+            what.style.depends_on_insert() ? keys_.inherited(key_of(what)) : keys_.modifier_for(key_of(what));
     return entry->second;
+}
+
+ModifierId ModifierTable::modifier_for(const SurfaceClass& what, const std::string& material)
+{
+    SurfaceKey key = key_of(what);
+    key.material = material;
+    key.colour.reset(); // the colour of its symbol
+    return keys_.modifier_for(key);
 }
 
 } // namespace lightwell::dxf

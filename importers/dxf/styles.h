@@ -39,8 +39,12 @@ public:
     ModifierTable(const Drawing& drawing, Imported& imported) : drawing_(drawing), keys_(imported) {}
     /// A place-holder when the class depends on the insert.
     ModifierId modifier_for(const SurfaceClass& what);
+    /// @param material  of Imported::file_materials
+    ModifierId modifier_for(const SurfaceClass& what, const std::string& material);
 
 private:
+    SurfaceKey key_of(const SurfaceClass& what) const;
+
     const Drawing& drawing_;
     KeyTable keys_;
     std::map<SurfaceClass, ModifierId> known_;

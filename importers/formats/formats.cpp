@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "importers/questions.h"
+#include "importers/surfaces/recover_surfaces.h"
 
 namespace lightwell {
 namespace {
@@ -25,11 +26,14 @@ Imported import_file(const std::filesystem::path& file, const ImportOptions& opt
     for (const Format& format : formats)
         if (format.recognize(file)) {
             Imported imported = format.import(file, options);
+            recover_surfaces(imported, options);
+            if (!options.raised.empty() && format.import != import_dxf)
+                imported.report.add(Finding::unused, file.filename().string(), "layers are raised in DXF files only");
             ask_about_sizes(imported, file.filename().string());
             return imported;
         }
     throw InputError(file.filename().string(), "content is none of the formats that can be read",
-                     "expected DXF, OBJ, glTF, GLB, FBX, Collada, 3DS, PLY, STL, X3D, OFF or IFC 2x3");
+                     "expected DXF, OBJ, glTF (.gltf) or GLB, FBX, Collada, 3DS, PLY, STL, X3D, OFF, IFC 2x3");
 }
 
 } // namespace lightwell

@@ -7,6 +7,7 @@
 #include "importers/units.h"
 
 #include <algorithm>
+#include <set>
 
 namespace lightwell {
 namespace {
@@ -45,21 +46,42 @@ bool y_is_up(const GltfDocument& document, const ImportOptions& options)
     return options.up != "z";
 }
 
-void take_materials(const GltfDocument& document, Imported& imported)
+/// @param open_shells  numbers of the materials whose meshes do not all enclose a body
+void take_materials(const GltfDocument& document, const std::set<int>& open_shells, double metres_per_unit,
+                    Imported& imported)
 {
-    const bool from_blender = document.generator.find("Blender") != std::string::npos;
+    GltfSurroundings around;
+    around.from_blender = document.generator.find("Blender") != std::string::npos;
+    around.metres_per_unit = metres_per_unit;
+    GltfPictures pictures(document);
+    std::set<std::string> known;
     for (std::size_t i = 0; i < document.materials.size(); ++i) {
-        const GltfMaterial& material = document.materials[i];
+        GltfMaterial material = document.materials[i];
         std::string name = material.name;
         if (name.empty())
             name.append("material").append(std::to_string(i));
         const std::string place = document.name + ": material \"" + name + '"';
-        const auto same = [&](const auto& entry) { return entry.first == name; };
-        if (std::any_of(imported.file_materials.begin(), imported.file_materials.end(), same))
+        if (!known.insert(name).second) {
             imported.report.add(Finding::ignored, place, "name is used twice; the first material of that name counts");
-        else
-            imported.file_materials.emplace_back(name, material_of(material, from_blender, place, imported.report));
+            continue;
+        }
+        apply_pictures(material, name, pictures, place, imported.report, imported.file_textures);
+        around.open_shell = open_shells.count(static_cast<int>(i)) > 0;
+        imported.file_materials.emplace_back(name, material_of(material, around, place, imported.report));
     }
+}
+
+/// A file may offer several looks; the one that its primitives name without choice is shown.
+void note_variants(const GltfDocument& document, Report& report)
+{
+    if (document.variants.empty())
+        return;
+    std::string names;
+    constexpr std::size_t shown = 10;
+    for (std::size_t i = 0; i < std::min(shown, document.variants.size()); ++i)
+        names.append(i ? ", " : "").append(document.variants[i]);
+    report.add(Finding::ignored, document.name, "variants of materials; the default is taken (" + names + ")",
+               document.variants.size());
 }
 
 } // namespace
@@ -81,9 +103,10 @@ Imported import_gltf(const std::filesystem::path& file, const ImportOptions& opt
     Imported imported;
     const GltfDocument document = read_gltf(file, imported.report);
     note_required_extensions(document, imported.report);
-    const Affine to_metres = to_metres_z_up(unit_of(document, options, imported), y_is_up(document, options));
-    take_materials(document, imported);
-    build_gltf(document, to_metres, imported);
+    note_variants(document, imported.report);
+    const MetresPerUnit unit = unit_of(document, options, imported);
+    const std::set<int> open_shells = build_gltf(document, to_metres_z_up(unit, y_is_up(document, options)), imported);
+    take_materials(document, open_shells, unit.value, imported);
     return imported;
 }
 

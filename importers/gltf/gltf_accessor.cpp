@@ -36,29 +36,6 @@ Number load(const char* bytes)
     return number;
 }
 
-/// Source  glTF 2.0 specification, 3.6.2.2 and 3.11: signed c becomes max(c / (2^(n-1) - 1), -1)
-double number_at(const char* bytes, int component_type, bool normalized)
-{
-    switch (component_type) {
-    case 5120: {
-        const double value = load<std::int8_t>(bytes);
-        return normalized ? std::max(value / 127, -1.0) : value;
-    }
-    case 5121:
-        return load<std::uint8_t>(bytes) / (normalized ? 255.0 : 1.0);
-    case 5122: {
-        const double value = load<std::int16_t>(bytes);
-        return normalized ? std::max(value / 32767, -1.0) : value;
-    }
-    case 5123:
-        return load<std::uint16_t>(bytes) / (normalized ? 65535.0 : 1.0);
-    case 5125:
-        return load<std::uint32_t>(bytes);
-    default:
-        return load<float>(bytes);
-    }
-}
-
 /// Elements of one shape in a view, proven to lie inside it.
 struct Elements {
     const char* first = nullptr;
@@ -89,13 +66,45 @@ Elements elements_in(const GltfDocument& document, int view_index, std::size_t o
     return {view.bytes.data() + offset, count, stride, component_bytes};
 }
 
-std::size_t index_at(const Elements& elements, std::size_t i, int component_type)
+/// Calls emit(i, numbers of element i). The type is chosen once, since a file has millions of elements.
+/// @param largest  that stands for 1 when integers are fractions; 0: they stand for themselves
+/// Source  glTF 2.0 specification, 3.6.2.2 and 3.11: signed c becomes max(c / (2^(n-1) - 1), -1)
+template <class Number, class Emit>
+void each_row(const Elements& elements, std::size_t width, double largest, const Emit& emit)
 {
-    return static_cast<std::size_t>(number_at(elements.first + i * elements.stride, component_type, false));
+    double row[16] = {};
+    for (std::size_t i = 0; i < elements.count; ++i) {
+        const char* at = elements.first + i * elements.stride;
+        for (std::size_t c = 0; c < width; ++c) {
+            const auto number = static_cast<double>(load<Number>(at + c * sizeof(Number)));
+            row[c] = largest > 0 ? std::max(number / largest, -1.0) : number;
+        }
+        emit(i, row);
+    }
 }
 
-void apply_sparse(const GltfDocument& document, const GltfAccessor& accessor, std::vector<double>& numbers,
-                  const std::string& place)
+template <class Emit>
+void each_row(const Elements& elements, std::size_t width, int type, bool normalized, const Emit& emit)
+{
+    switch (type) {
+    case 5120:
+        return each_row<std::int8_t>(elements, width, normalized ? 127 : 0, emit);
+    case 5121:
+        return each_row<std::uint8_t>(elements, width, normalized ? 255 : 0, emit);
+    case 5122:
+        return each_row<std::int16_t>(elements, width, normalized ? 32767 : 0, emit);
+    case 5123:
+        return each_row<std::uint16_t>(elements, width, normalized ? 65535 : 0, emit);
+    case 5125:
+        return each_row<std::uint32_t>(elements, width, 0, emit);
+    default:
+        return each_row<float>(elements, width, 0, emit);
+    }
+}
+
+template <class Emit>
+void apply_sparse(const GltfDocument& document, const GltfAccessor& accessor, const std::string& place,
+                  const Emit& emit)
 {
     const GltfAccessor::Sparse& sparse = *accessor.sparse;
     if (sparse.index_type != 5121 && sparse.index_type != 5123 && sparse.index_type != 5125)
@@ -104,15 +113,15 @@ void apply_sparse(const GltfDocument& document, const GltfAccessor& accessor, st
         elements_in(document, sparse.index_view, sparse.index_offset, sparse.count, sparse.index_type, 1, false, place);
     const Elements values = elements_in(document, sparse.value_view, sparse.value_offset, sparse.count,
                                         accessor.component_type, accessor.components, false, place);
-    const auto components = static_cast<std::size_t>(accessor.components);
-    for (std::size_t i = 0; i < sparse.count; ++i) {
-        const std::size_t at = index_at(indices, i, sparse.index_type);
-        if (at >= accessor.count)
-            throw InputError(place, "sparse index " + std::to_string(at) + " of " + std::to_string(accessor.count));
-        for (std::size_t c = 0; c < components; ++c)
-            numbers[at * components + c] = number_at(values.first + i * values.stride + c * values.component_bytes,
-                                                     accessor.component_type, accessor.normalized);
-    }
+    std::vector<std::size_t> targets;
+    each_row(indices, 1, sparse.index_type, false, [&](std::size_t, const double* row) {
+        targets.push_back(static_cast<std::size_t>(row[0]));
+        if (targets.back() >= accessor.count)
+            throw InputError(place, "sparse index " + std::to_string(targets.back()) + " of " +
+                                        std::to_string(accessor.count));
+    });
+    each_row(values, static_cast<std::size_t>(accessor.components), accessor.component_type, accessor.normalized,
+             [&](std::size_t i, const double* row) { emit(targets[i], row); });
 }
 
 const GltfAccessor& accessor_at(const GltfDocument& document, int index)
@@ -128,9 +137,10 @@ std::string place_of(const GltfDocument& document, int index)
     return document.name + ": accessor " + std::to_string(index);
 }
 
-} // namespace
-
-std::vector<double> read_numbers(const GltfDocument& document, int index, int components)
+/// Calls prepare(count, width) when the accessor is known to be sound, then emit(i, row) for its elements; those that
+/// have no bytes are zero and not told of.
+template <class Prepare, class Emit>
+void read_rows(const GltfDocument& document, int index, int components, const Prepare& prepare, const Emit& emit)
 {
     const GltfAccessor& accessor = accessor_at(document, index);
     const std::string place = place_of(document, index);
@@ -138,23 +148,45 @@ std::vector<double> read_numbers(const GltfDocument& document, int index, int co
         throw InputError(place, "has " + std::to_string(accessor.components) + " components, expected " +
                                     std::to_string(components));
     const auto width = static_cast<std::size_t>(accessor.components);
-    std::vector<double> numbers;
     if (accessor.view >= 0) {
         const Elements elements = elements_in(document, accessor.view, accessor.offset, accessor.count,
                                               accessor.component_type, accessor.components, true, place);
-        numbers.reserve(accessor.count * width);
-        for (std::size_t i = 0; i < accessor.count; ++i)
-            for (std::size_t c = 0; c < width; ++c)
-                numbers.push_back(number_at(elements.first + i * elements.stride + c * elements.component_bytes,
-                                            accessor.component_type, accessor.normalized));
+        prepare(accessor.count, width);
+        each_row(elements, width, accessor.component_type, accessor.normalized, emit);
     } else {
         if (accessor.count > most_zeros)
             throw InputError(place, std::to_string(accessor.count) + " elements without any bytes");
-        numbers.assign(accessor.count * width, 0);
+        prepare(accessor.count, width);
     }
     if (accessor.sparse)
-        apply_sparse(document, accessor, numbers, place);
+        apply_sparse(document, accessor, place, emit);
+}
+
+} // namespace
+
+std::vector<double> read_numbers(const GltfDocument& document, int index, int components)
+{
+    std::vector<double> numbers;
+    std::size_t row_size = 0;
+    read_rows(
+        document, index, components,
+        [&](std::size_t count, std::size_t width) {
+            numbers.resize(count * width);
+            row_size = width;
+        },
+        [&](std::size_t i, const double* row) { std::copy(row, row + row_size, &numbers[i * row_size]); });
     return numbers;
+}
+
+std::vector<Vec3> read_vectors(const GltfDocument& document, int index)
+{
+    std::vector<Vec3> vectors;
+    read_rows(
+        document, index, 3, [&](std::size_t count, std::size_t) { vectors.resize(count); },
+        [&](std::size_t i, const double* row) {
+            vectors[i] = {row[0], row[1], row[2]};
+        });
+    return vectors;
 }
 
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index)
@@ -165,8 +197,9 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index)
         throw InputError(place_of(document, index), "cannot be indices: component type " + std::to_string(type) + ", " +
                                                         std::to_string(accessor.components) + " components");
     std::vector<std::uint32_t> indices;
-    for (const double number : read_numbers(document, index, 1))
-        indices.push_back(static_cast<std::uint32_t>(number));
+    read_rows(
+        document, index, 1, [&](std::size_t count, std::size_t) { indices.resize(count); },
+        [&](std::size_t i, const double* row) { indices[i] = static_cast<std::uint32_t>(row[0]); });
     return indices;
 }
 

@@ -13,6 +13,9 @@ namespace lightwell {
 /// @throws InputError an index that leads nowhere, bytes outside the view, an absurd count; place is the accessor
 std::vector<double> read_numbers(const GltfDocument& document, int index, int components);
 
+/// The same for three components.
+std::vector<Vec3> read_vectors(const GltfDocument& document, int index);
+
 /// Unsigned integers of an index accessor.
 /// @throws InputError as read_numbers(), and for a component type that cannot be an index
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index);

@@ -39,29 +39,45 @@ std::optional<std::string> decode_base64(std::string_view text)
 
 GltfBuffer open_data_uri(const std::string& uri, GltfDocument& document)
 {
-    const std::size_t comma = uri.find(',');
-    if (comma == std::string::npos || uri.substr(0, comma).find(";base64") == std::string::npos)
-        return {{}, "its data URI is not base64"};
-    std::optional<std::string> bytes = decode_base64(std::string_view(uri).substr(comma + 1));
-    if (!bytes)
-        return {{}, "its data URI holds characters that are not base64"};
-    document.owned.push_back(std::make_unique<std::string>(std::move(*bytes)));
+    try {
+        document.owned.push_back(std::make_unique<std::string>(data_uri_bytes(uri, "its data URI")));
+    } catch (const InputError& error) {
+        return {{}, error.what()};
+    }
     return {*document.owned.back(), {}};
 }
 
 GltfBuffer open_companion(const std::string& uri, const std::filesystem::path& folder, GltfDocument& document)
 {
-    for (const std::string& name : {percent_decoded(uri), uri}) {
-        std::error_code none;
-        if (name.find('\0') != std::string::npos || !std::filesystem::is_regular_file(folder / name, none))
-            continue;
-        document.files.push_back(std::make_unique<MappedFile>(folder / name));
-        return {document.files.back()->bytes(), {}};
-    }
-    return {{}, "its file \"" + uri.substr(0, 100) + "\" is not there"};
+    const auto file = companion_file(uri, folder);
+    if (!file)
+        return {{}, "its file \"" + uri.substr(0, 100) + "\" is not there"};
+    document.files.push_back(std::make_unique<MappedFile>(*file));
+    return {document.files.back()->bytes(), {}};
 }
 
 } // namespace
+
+std::string data_uri_bytes(const std::string& uri, const std::string& place)
+{
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos || uri.substr(0, comma).find(";base64") == std::string::npos)
+        throw InputError(place, "is not base64");
+    std::optional<std::string> bytes = decode_base64(std::string_view(uri).substr(comma + 1));
+    if (!bytes)
+        throw InputError(place, "holds characters that are not base64");
+    return std::move(*bytes);
+}
+
+std::optional<std::filesystem::path> companion_file(const std::string& uri, const std::filesystem::path& folder)
+{
+    for (const std::string& name : {percent_decoded(uri), uri}) {
+        std::error_code none;
+        if (name.find('\0') == std::string::npos && std::filesystem::is_regular_file(folder / name, none))
+            return folder / name;
+    }
+    return {};
+}
 
 GltfBuffer open_buffer(const std::string& uri, std::size_t length, std::string_view binary_chunk,
                        const std::filesystem::path& folder, GltfDocument& document)

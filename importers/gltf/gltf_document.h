@@ -4,6 +4,7 @@
 #include "engine/base/report.h"
 #include "engine/base/spectrum.h"
 #include "engine/base/transform.h"
+#include "importers/file_texture.h"
 
 #include <filesystem>
 #include <map>
@@ -48,39 +49,82 @@ struct GltfPrimitive {
     int indices = -1, material = -1;
     std::map<std::string, int> attributes;
     std::optional<GltfDraco> draco;
-    bool morphed = false;
+    std::vector<std::map<std::string, int>> targets; ///< accessors of each morph target
 };
 
 struct GltfMesh {
     std::string name;
     std::vector<GltfPrimitive> primitives;
+    std::vector<double> weights; ///< of the morph targets, at rest
 };
 
 struct GltfNode {
     std::string name;
     std::string layer; ///< extras.layer, empty when there is none
     Affine to_parent;
-    int mesh = -1, camera = -1, light = -1;
-    bool skinned = false;
+    int mesh = -1, camera = -1, light = -1, skin = -1;
+    std::vector<double> weights; ///< of the morph targets; empty: those of the mesh
     std::vector<int> children;
     std::map<std::string, int> instancing; ///< accessors of EXT_mesh_gpu_instancing; empty: one copy
 };
 
-/// Factors of a material, linear Rec.709; textures are only counted.
+/// Bones of a mesh: the nodes and the accessor of the matrices that bring the mesh into their frames.
+struct GltfSkin {
+    int inverse_bind = -1;
+    std::vector<int> joints;
+};
+
+/// Where the bytes of a picture are.
+struct GltfImage {
+    std::string uri; ///< empty: in the view
+    int view = -1;
+    std::string name;
+};
+
+/// A use of a picture by a material.
+struct GltfTexture {
+    FileTexture::Use use = FileTexture::Use::colour;
+    std::string what; ///< name in the file: "baseColorTexture", ...
+    int image = -1;   ///< -1: the file names none that is there
+    TexturePlacement placement;
+};
+
+/// Factors of a material, linear Rec.709, before the means of its pictures are multiplied with them.
 struct GltfMaterial {
     std::string name;
     Spectrum base_colour{1, 1, 1};
     double alpha = 1;
     std::string alpha_mode = "OPAQUE";
+    double alpha_cutoff = 0.5;
     bool metal_stated = false; ///< metallicFactor, roughnessFactor or their texture stands in the file
     double metallic = 1, roughness = 1;
-    Spectrum emission;       ///< with KHR_materials_emissive_strength
-    double transmission = 0; ///< KHR_materials_transmission
-    double index = 1.5;      ///< KHR_materials_ior
-    double specular = 1;     ///< KHR_materials_specular
+    Spectrum emission;                             ///< with KHR_materials_emissive_strength
+    double transmission = 0;                       ///< KHR_materials_transmission
+    double index = 1.5;                            ///< KHR_materials_ior
+    double specular = 1;                           ///< KHR_materials_specular
+    Spectrum specular_colour{1, 1, 1};             ///< the same
+    double thickness = 0;                          ///< KHR_materials_volume: 0 is a thin wall
+    Spectrum attenuation_colour{1, 1, 1};          ///< the same
+    double attenuation_distance_m = infinity;      ///< the same
+    double clearcoat = 0, clearcoat_roughness = 0; ///< KHR_materials_clearcoat
+    Spectrum sheen;                                ///< KHR_materials_sheen
+    double sheen_roughness = 0;                    ///< the same
+    double anisotropy = 0;                         ///< KHR_materials_anisotropy
+    double diffuse_transmission = 0;               ///< KHR_materials_diffuse_transmission
+    Spectrum diffuse_transmission_colour{1, 1, 1}; ///< the same
+    std::optional<double> normal_reflectance;      ///< of pbrSpecularGlossiness, in place of the index
     bool unlit = false;
-    std::size_t textures = 0;
+    std::vector<GltfTexture> textures;
     std::vector<std::string> not_modelled; ///< names of other extensions
+};
+
+/// A lamp without size, as KHR_lights_punctual has it.
+struct GltfLight {
+    std::string name, type;    ///< "point", "spot", "directional"
+    Spectrum colour{1, 1, 1};  ///< linear Rec.709
+    double intensity = 1;      ///< cd; lx for a directional one
+    double inner_rad = 0;      ///< of a spot: full strength up to this angle from its axis
+    double outer_rad = pi / 4; ///< of a spot: nothing beyond it
 };
 
 struct GltfCamera {
@@ -93,6 +137,7 @@ struct GltfCamera {
 /// A glTF file as records of its own; indices are as written and may lead nowhere.
 struct GltfDocument {
     std::string name; ///< for places in messages
+    std::filesystem::path file;
     std::string generator;
     std::vector<GltfView> views;
     std::vector<GltfAccessor> accessors;
@@ -100,7 +145,11 @@ struct GltfDocument {
     std::vector<GltfNode> nodes;
     std::vector<GltfMaterial> materials;
     std::vector<GltfCamera> cameras;
-    std::vector<int> roots; ///< of the chosen scene
+    std::vector<GltfSkin> skins;
+    std::vector<GltfImage> images;
+    std::vector<GltfLight> lights;
+    std::vector<std::string> variants; ///< KHR_materials_variants: names of the looks to choose from
+    std::vector<int> roots;            ///< of the chosen scene
     std::size_t animations = 0, scenes = 0;
     std::vector<std::string> required; ///< extensions
     /// What the views point into: unpacked bytes, the file, its companions.

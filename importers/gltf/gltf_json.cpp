@@ -75,13 +75,16 @@ void take_buffers(Json& root, GltfJson& result)
     }
 }
 
-void take_lights(const Json& root, GltfJson& result)
+/// Moves what the parser need not see.
+void take_parts(Json& root, GltfJson& result)
 {
-    static const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-    if (!root.contains(lights) || !root[lights].is_array())
-        return;
-    for (const Json& light : root[lights])
-        result.light_types.push_back(light.is_object() ? text_at(light, "type") : std::string());
+    Json parts = Json::object();
+    for (const char* key : {"extensions", "images", "materials", "samplers", "skins", "textures"})
+        if (const auto found = root.find(key); found != root.end()) {
+            parts[key] = std::move(*found);
+            root.erase(found);
+        }
+    result.parts = parts.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Whole numbers written as 12.0 become 12: the parser refuses them where it wants integers.
@@ -146,7 +149,7 @@ GltfJson prepare_json(std::string_view json, const std::string& name, Report& re
     GltfJson result;
     result.generator = text_at(root["asset"], "generator");
     take_buffers(root, result);
-    take_lights(root, result);
+    take_parts(root, result);
     if (root.contains("animations") && root["animations"].is_array())
         result.animations = root["animations"].size();
     if (root.contains("scene") && !root["scene"].is_number_unsigned()) {
@@ -155,7 +158,7 @@ GltfJson prepare_json(std::string_view json, const std::string& name, Report& re
     }
     if (root.contains("meshes"))
         hide_indices(root, name);
-    for (const char* key : {"animations", "buffers", "extensions", "extras", "images", "samplers", "skins", "textures"})
+    for (const char* key : {"animations", "buffers", "extras"})
         root.erase(key);
     result.text = root.dump(-1, ' ', false, Json::error_handler_t::replace);
     return result;

@@ -14,9 +14,9 @@ struct GltfJson {
         std::string uri;
         std::size_t length = 0;
     };
-    std::string text; ///< without buffers, images, textures, samplers, skins, animations and root extensions
+    std::string text;  ///< without buffers, animations and what `parts` has
+    std::string parts; ///< materials, images, textures, samplers, skins and root extensions, for gltf_parts.h
     std::vector<Buffer> buffers;
-    std::vector<std::string> light_types; ///< of KHR_lights_punctual
     std::size_t animations = 0;
     std::string generator;
 };

@@ -1,5 +1,9 @@
 #include "importers/gltf/gltf_material.h"
 
+#include "engine/base/errors.h"
+#include "engine/base/text.h"
+#include "importers/layered_materials.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,6 +41,26 @@ double index_of(const GltfMaterial& from)
     return from.index > 1 && from.index < highest_index ? from.index : 1.5;
 }
 
+/// Share of the area that the surface covers.
+double opacity_of(const GltfMaterial& from)
+{
+    return from.alpha_mode == "OPAQUE" ? 1 : unit(from.alpha);
+}
+
+/// What one metre of the body leaves.  Source  KHR_materials_volume: colour after the attenuation distance
+Material body_of(const GltfMaterial& from, double metres_per_unit, const std::string& place, Report& report)
+{
+    const Spectrum colour = reflectance_of(from.attenuation_colour);
+    const double distance_m = from.attenuation_distance_m * metres_per_unit;
+    const auto after_one_metre = [&](double left) { return distance_m > 0 ? std::pow(left, 1 / distance_m) : 1; };
+    if (from.base_colour.r != 1 || from.base_colour.g != 1 || from.base_colour.b != 1)
+        report.add(Finding::approximated, place, "base colour of a transparent body is left out; its volume tints");
+    if (from.roughness > 0 && from.metal_stated)
+        report.add(Finding::approximated, place, "rough transparent surface is taken as smooth");
+    return Dielectric{
+        {after_one_metre(colour.r), after_one_metre(colour.g), after_one_metre(colour.b)}, index_of(from), 0};
+}
+
 Material glass_of(const GltfMaterial& from, const std::string& place, Report& report)
 {
     if (from.transmission >= mostly) {
@@ -48,38 +72,184 @@ Material glass_of(const GltfMaterial& from, const std::string& place, Report& re
     return Glass{Spectrum::grey(1 - unit(from.alpha)), index_of(from)};
 }
 
+/// A sheet that scatters part of the light to its other side.  Source  KHR_materials_diffuse_transmission
+Material diffusing(const GltfMaterial& from, const std::string& place, Report& report)
+{
+    const double share = unit(from.diffuse_transmission);
+    const Spectrum back = reflectance_of(from.base_colour) * (1 - share);
+    const Spectrum through = reflectance_of(from.diffuse_transmission_colour) * share;
+    const Spectrum sum = back + through;
+    const double mean = photopic(sum);
+    report.add(Finding::approximated, place, "light scattered forwards and backwards has one colour, their mean");
+    return Trans{{unit(sum.r), unit(sum.g), unit(sum.b)}, 0, 0, mean > 0 ? unit(photopic(through) / mean) : 0, 0};
+}
+
+/// Reflectance of the smooth surface at normal incidence: Fresnel, or what the file says in its place.
+double normal_reflectance_of(const GltfMaterial& from)
+{
+    if (from.normal_reflectance)
+        return unit(*from.normal_reflectance);
+    const double root = (index_of(from) - 1) / (index_of(from) + 1);
+    return unit(std::min(1.0, root * root * photopic(from_rec709(from.specular_colour))) * unit(from.specular));
+}
+
+Plastic plastic_of(const GltfMaterial& from, double slope, const std::string& place, Report& report)
+{
+    Plastic plastic{reflectance_of(from.base_colour), normal_reflectance_of(from), slope};
+    if (from.sheen.is_finite() && from.sheen.max() > 0) {
+        plastic = with_sheen(plastic, reflectance_of(from.sheen), unit(from.sheen_roughness));
+        report.add(Finding::approximated, place, "sheen is added to the diffuse reflectance");
+    }
+    if (from.clearcoat > 0) {
+        plastic = with_coat(plastic, from.clearcoat, std::pow(unit(from.clearcoat_roughness), 2));
+        report.add(Finding::approximated, place, "clear coat and highlight become one highlight");
+    }
+    return plastic;
+}
+
+/// A round highlight as wide as the brushed one in the mean of both directions.
+/// Source  KHR_materials_anisotropy: slope along the brush is mix(slope, 1, strength^2)
+double round_slope(const GltfMaterial& from, double slope)
+{
+    const double along = std::lerp(slope, 1.0, unit(from.anisotropy) * unit(from.anisotropy));
+    return std::sqrt(along * slope);
+}
+
 void note_what_is_left_out(const GltfMaterial& from, const std::string& place, Report& report)
 {
-    if (from.textures > 0)
-        report.add(Finding::unsupported, place, "texture is not modelled yet; the factor beside it is used",
-                   from.textures);
     for (const std::string& name : from.not_modelled)
         report.add(Finding::unsupported, place, name + " is not modelled yet");
-    if (from.alpha_mode == "MASK")
-        report.add(Finding::unsupported, place, "alpha mask is not modelled yet; the surface is whole");
+    if (from.anisotropy > 0)
+        report.add(Finding::approximated, place, "brushed highlight is taken as round");
+    const bool partly = from.transmission > 0 && from.transmission < mostly;
+    if (partly)
+        report.add(Finding::approximated, place, "transmission below 0.5 is taken as opaque");
+}
+
+/// Opaque or partly open.
+Material covering(const GltfMaterial& from, const std::string& place, Report& report)
+{
+    const double opacity = opacity_of(from);
+    double slope = std::pow(unit(from.roughness), 2); // rms slope of the facets: the square, as the format says
+    if (from.anisotropy > 0)
+        slope = round_slope(from, slope);
+    if (from.metal_stated && !from.unlit && from.metallic >= mostly && opacity >= 1) {
+        if (from.clearcoat > 0)
+            report.add(Finding::approximated, place, "clear coat over metal is left out");
+        return Metal{reflectance_of(from.base_colour), unit(from.metallic), slope};
+    }
+    Plastic plastic{reflectance_of(from.base_colour), 0, 0};
+    if (!from.unlit && from.metal_stated)
+        plastic = plastic_of(from, slope, place, report);
+    else if (!from.unlit)
+        report.add(Finding::assumed, place, "neither metal nor roughness is stated; taken as matt, not as metal");
+    if (opacity >= 1)
+        return plastic;
+    report.add(Finding::approximated, place,
+               from.alpha_mode == "MASK"
+                   ? "cut-out surface: the share that is left covers, light goes straight through the rest"
+                   : "alpha from 0.5 to 1: that share covers, light goes straight through the rest");
+    return partly_open(plastic, opacity);
+}
+
+std::string rounded(double value)
+{
+    return shortest(std::round(1000 * value) / 1000);
+}
+
+std::string rounded(const Spectrum& s)
+{
+    return rounded(s.r) + " " + rounded(s.g) + " " + rounded(s.b);
+}
+
+/// The pixels of the base colour also say where the surface is.
+void take_opacity(const PictureMeans& means, GltfMaterial& material)
+{
+    if (material.alpha_mode == "MASK")
+        material.alpha = means.share_kept(material.alpha_cutoff, material.alpha);
+    else
+        material.alpha *= means.opacity;
+}
+
+/// Changes the factors by the means.  @return the mean as text; empty when the picture changes no factor
+std::string take_mean(const PictureMeans& means, FileTexture::Use use, GltfMaterial& material)
+{
+    switch (use) {
+    case FileTexture::Use::colour:
+        material.base_colour = material.base_colour * means.colour;
+        take_opacity(means, material);
+        return rounded(means.colour);
+    case FileTexture::Use::emission:
+        material.emission = material.emission * means.colour;
+        return rounded(means.colour);
+    case FileTexture::Use::metal: // roughness in green, metal in blue
+        material.roughness *= means.plain.g;
+        material.metallic *= means.plain.b;
+        return "roughness " + rounded(means.plain.g) + " and metal " + rounded(means.plain.b);
+    case FileTexture::Use::transmission:
+        material.transmission *= means.plain.r;
+        return rounded(means.plain.r);
+    default:
+        return {};
+    }
+}
+
+void apply_picture(const GltfTexture& texture, GltfMaterial& material, GltfPictures& pictures, const std::string& place,
+                   Report& report)
+{
+    if (texture.use == FileTexture::Use::normal)
+        return report.add(Finding::unsupported, place,
+                          texture.what + " bends no normals yet; the surface stays smooth");
+    if (texture.what == "occlusionTexture")
+        return report.add(Finding::ignored, place, "occlusionTexture: the simulation finds out what hides light");
+    if (texture.use == FileTexture::Use::other)
+        return report.add(Finding::unsupported, place, texture.what + " is not read; the factor beside it is used");
+    if (const PictureMeans* means = pictures.means(texture.image, place, report))
+        report.add(Finding::approximated, place,
+                   texture.what + ": its mean, " + take_mean(*means, texture.use, material) +
+                       ", stands for the whole picture");
 }
 
 } // namespace
 
-Material material_of(const GltfMaterial& from, bool from_blender, const std::string& place, Report& report)
+void apply_pictures(GltfMaterial& material, const std::string& name, GltfPictures& pictures, const std::string& place,
+                    Report& report, std::vector<FileTexture>& textures)
+{
+    const double stated_alpha = material.alpha;
+    bool masked_by_picture = false;
+    for (const GltfTexture& texture : material.textures) {
+        apply_picture(texture, material, pictures, place, report);
+        if (texture.use == FileTexture::Use::colour && pictures.means(texture.image, place, report))
+            masked_by_picture = true;
+        try {
+            FileTexture found = pictures.located(texture.image);
+            found.material = name;
+            found.use = texture.use;
+            found.placement = texture.placement;
+            textures.push_back(std::move(found));
+        } catch (const InputError&) { // noted where the means were asked for
+            continue;
+        }
+    }
+    if (material.alpha_mode == "MASK" && !masked_by_picture)
+        material.alpha = stated_alpha >= material.alpha_cutoff ? 1 : 0;
+}
+
+Material material_of(const GltfMaterial& from, const GltfSurroundings& around, const std::string& place, Report& report)
 {
     note_what_is_left_out(from, place, report);
     if (from.emission.is_finite() && from.emission.max() > 0)
-        return light_of(from, from_blender, place, report);
-    if (from.transmission >= mostly || (from.alpha_mode == "BLEND" && from.alpha < mostly))
-        return glass_of(from, place, report);
-    const Spectrum colour = reflectance_of(from.base_colour);
-    if (from.unlit)
-        return Plastic{colour, 0, 0};
-    if (!from.metal_stated) {
-        report.add(Finding::assumed, place, "neither metal nor roughness is stated; taken as matt, not as metal");
-        return Plastic{colour, 0, 0};
+        return light_of(from, around.from_blender, place, report);
+    if (from.transmission >= mostly && from.thickness > 0) {
+        if (!around.open_shell)
+            return body_of(from, around.metres_per_unit, place, report);
+        report.add(Finding::approximated, place, "transparent body has an open mesh; it becomes a thin pane");
     }
-    const double slope = std::pow(unit(from.roughness), 2); // rms slope of the facets: the square, as the format says
-    if (from.metallic >= mostly)
-        return Metal{colour, unit(from.metallic), slope};
-    const double root = (index_of(from) - 1) / (index_of(from) + 1);
-    return Plastic{colour, unit(root * root * unit(from.specular)), slope};
+    if (from.transmission >= mostly || (from.alpha_mode == "BLEND" && opacity_of(from) < mostly))
+        return glass_of(from, place, report);
+    if (from.diffuse_transmission > 0)
+        return diffusing(from, place, report);
+    return covering(from, place, report);
 }
 
 } // namespace lightwell

@@ -1,12 +1,27 @@
 #pragma once
 
 #include "importers/gltf/gltf_document.h"
+#include "importers/gltf/gltf_pictures.h"
 #include "materials/material.h"
 
 namespace lightwell {
 
-/// The rule of importers/gltf/README.md: emitter, glass, metal or plastic; always a valid material.
-/// @param from_blender  emission is in W/(m^2 sr); otherwise in cd/m^2, as the format says
-Material material_of(const GltfMaterial& from, bool from_blender, const std::string& place, Report& report);
+/// What the rule of materials must know beside the material.
+struct GltfSurroundings {
+    bool from_blender = false; ///< emission is in W/(m^2 sr); otherwise in cd/m^2, as the format says
+    bool open_shell = false;   ///< some mesh of this material does not enclose a body
+    double metres_per_unit = 1;
+};
+
+/// Multiplies the factors with the means of the material's pictures.
+/// @param name      of the material in Imported::file_materials
+/// @param textures  receives the pictures
+void apply_pictures(GltfMaterial& material, const std::string& name, GltfPictures& pictures, const std::string& place,
+                    Report& report, std::vector<FileTexture>& textures);
+
+/// The rule of importers/gltf/README.md: emitter, glass, body, metal, plastic or something partly open; always a valid
+/// material.
+Material material_of(const GltfMaterial& from, const GltfSurroundings& around, const std::string& place,
+                     Report& report);
 
 } // namespace lightwell

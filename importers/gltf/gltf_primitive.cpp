@@ -4,8 +4,10 @@
 #include "importers/gltf/gltf_accessor.h"
 #include "importers/gltf/gltf_codecs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace lightwell {
 namespace {
@@ -18,35 +20,40 @@ constexpr double zero_area_tolerance = 1e-12;
 
 /// Values by attribute and the order of the corners, from accessors or from packed data.
 struct Source {
-    std::vector<double> positions, normals, texture;
+    std::vector<Point> points;
+    std::vector<Vec3> normals;   ///< empty, or one for each point
+    std::vector<double> texture; ///< empty, or two for each point
     std::vector<std::uint32_t> corners;
 };
 
-std::vector<double> optional_numbers(const GltfDocument& document, const GltfPrimitive& primitive, const char* name,
-                                     int components, std::size_t count)
+/// @throws InputError unless there is one value for each point
+void check_count(const GltfDocument& document, const char* name, int accessor, std::size_t values, std::size_t points)
 {
-    const auto found = primitive.attributes.find(name);
-    if (found == primitive.attributes.end())
-        return {};
-    std::vector<double> numbers = read_numbers(document, found->second, components);
-    if (numbers.size() != count * static_cast<std::size_t>(components))
-        throw InputError(document.name + ": accessor " + std::to_string(found->second),
-                         std::string(name) + " has " +
-                             std::to_string(numbers.size() / static_cast<std::size_t>(components)) +
-                             " elements, POSITION has " + std::to_string(count));
-    return numbers;
+    if (values != points)
+        throw InputError(document.name + ": accessor " + std::to_string(accessor),
+                         std::string(name) + " has " + std::to_string(values) + " elements, POSITION has " +
+                             std::to_string(points));
 }
 
 Source from_accessors(const GltfDocument& document, const GltfPrimitive& primitive)
 {
-    const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end())
+    const auto accessor_of = [&](const char* name) {
+        const auto found = primitive.attributes.find(name);
+        return found == primitive.attributes.end() ? -1 : found->second;
+    };
+    if (primitive.attributes.count("POSITION") == 0)
         throw InputError(document.name, "primitive without POSITION");
     Source source;
-    source.positions = read_numbers(document, position->second, 3);
-    const std::size_t count = source.positions.size() / 3;
-    source.normals = optional_numbers(document, primitive, "NORMAL", 3, count);
-    source.texture = optional_numbers(document, primitive, "TEXCOORD_0", 2, count);
+    source.points = read_vectors(document, accessor_of("POSITION"));
+    const std::size_t count = source.points.size();
+    if (primitive.attributes.count("NORMAL") > 0) {
+        source.normals = read_vectors(document, accessor_of("NORMAL"));
+        check_count(document, "NORMAL", accessor_of("NORMAL"), source.normals.size(), count);
+    }
+    if (primitive.attributes.count("TEXCOORD_0") > 0) {
+        source.texture = read_numbers(document, accessor_of("TEXCOORD_0"), 2);
+        check_count(document, "TEXCOORD_0", accessor_of("TEXCOORD_0"), source.texture.size() / 2, count);
+    }
     if (primitive.indices >= 0) {
         source.corners = read_indices(document, primitive.indices);
         return source;
@@ -55,6 +62,14 @@ Source from_accessors(const GltfDocument& document, const GltfPrimitive& primiti
     for (std::size_t i = 0; i < count; ++i)
         source.corners[i] = static_cast<std::uint32_t>(i);
     return source;
+}
+
+std::vector<Vec3> as_vectors(const std::vector<double>& numbers)
+{
+    std::vector<Vec3> vectors(numbers.size() / 3);
+    for (std::size_t i = 0; i < vectors.size(); ++i)
+        vectors[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+    return vectors;
 }
 
 Source from_draco(const GltfDocument& document, const GltfPrimitive& primitive)
@@ -75,17 +90,16 @@ Source from_draco(const GltfDocument& document, const GltfPrimitive& primitive)
             throw InputError(place, name + " has " + std::to_string(components) + " components");
     if (packed.values["POSITION"].empty())
         throw InputError(place, "Draco data without POSITION");
-    return {std::move(packed.values["POSITION"]), std::move(packed.values["NORMAL"]),
+    return {as_vectors(packed.values["POSITION"]), as_vectors(packed.values["NORMAL"]),
             std::move(packed.values["TEXCOORD_0"]), std::move(packed.triangles)};
 }
 
 /// Source  glTF 2.0 specification, 3.7.2.1: strips turn every second triangle, fans share their first corner
-std::vector<std::uint32_t> unrolled(const std::vector<std::uint32_t>& corners, int mode)
+std::vector<std::uint32_t> unrolled(std::vector<std::uint32_t> corners, int mode)
 {
     if (mode != mode_strip && mode != mode_fan) {
-        std::vector<std::uint32_t> whole = corners;
-        whole.resize(corners.size() / 3 * 3);
-        return whole;
+        corners.resize(corners.size() / 3 * 3);
+        return corners;
     }
     std::vector<std::uint32_t> triangles;
     for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
@@ -98,65 +112,84 @@ std::vector<std::uint32_t> unrolled(const std::vector<std::uint32_t>& corners, i
     return triangles;
 }
 
-Vec3 vector_at(const std::vector<double>& numbers, std::size_t index)
-{
-    return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
-}
-
-/// The corners of triangles that have an area.
+/// Drops the triangles that have no area.
 /// @throws InputError when a corner is not at a finite place
-std::vector<std::uint32_t> with_area(const std::vector<double>& positions, const std::vector<std::uint32_t>& corners,
-                                     const std::string& place)
+void keep_with_area(const std::vector<Point>& points, std::vector<std::uint32_t>& corners, const std::string& place)
 {
-    std::vector<std::uint32_t> kept;
-    kept.reserve(corners.size());
+    std::size_t kept = 0;
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-        const Point a = vector_at(positions, corners[i]), b = vector_at(positions, corners[i + 1]),
-                    c = vector_at(positions, corners[i + 2]);
-        if (!is_finite(a) || !is_finite(b) || !is_finite(c))
+        const Point &a = points[corners[i]], &b = points[corners[i + 1]], &c = points[corners[i + 2]];
+        const Vec3 ab = b - a, bc = c - b, ca = a - c, twice_area = cross(ab, ca);
+        const double squared = std::fmax(dot(ab, ab), std::fmax(dot(bc, bc), dot(ca, ca)));
+        if (!(squared < infinity)) // NaN as well
             throw InputError(place, "coordinates of triangle " + std::to_string(i / 3) + " are not finite");
-        const double longest = std::fmax(length(b - a), std::fmax(length(c - b), length(a - c)));
-        if (length(cross(b - a, c - a)) > zero_area_tolerance * longest * longest)
-            kept.insert(kept.end(), {corners[i], corners[i + 1], corners[i + 2]});
+        if (!(dot(twice_area, twice_area) > zero_area_tolerance * squared * (zero_area_tolerance * squared)))
+            continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[kept + k] = corners[i + k];
+        kept += 3;
     }
-    return kept;
+    corners.resize(kept);
 }
 
-/// The triangles with the points they use and no others: primitives often share one long list of vertices.
-Mesh compact_mesh(const Source& source, const std::vector<std::uint32_t>& corners)
+/// Drops the points that no corner uses: primitives often share one long list of them.
+void keep_used(Source& source)
 {
-    constexpr std::uint32_t not_yet = std::numeric_limits<std::uint32_t>::max();
-    const std::size_t count = source.positions.size() / 3;
-    const bool with_normals = source.normals.size() == 3 * count, with_texture = source.texture.size() == 2 * count;
-    Mesh mesh;
-    std::vector<std::uint32_t> place(count, not_yet);
-    mesh.triangles.reserve(corners.size());
-    for (const std::uint32_t corner : corners) {
-        if (place[corner] == not_yet) {
-            place[corner] = static_cast<std::uint32_t>(mesh.points.size());
-            mesh.points.push_back(vector_at(source.positions, corner));
-            if (with_normals) {
-                const Vec3 normal = vector_at(source.normals, corner);
-                mesh.normals.push_back(is_finite(normal) ? normalized(normal) : Vec3{});
-            }
-            for (std::size_t i = 0; with_texture && i < 2; ++i) {
-                const double value = source.texture[2 * std::size_t{corner} + i];
-                mesh.texture.push_back(std::isfinite(value) ? value : 0);
-            }
+    constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+    const std::size_t count = source.points.size();
+    std::vector<std::uint32_t> place(count, unused);
+    for (const std::uint32_t corner : source.corners)
+        place[corner] = 0;
+    std::uint32_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (place[i] == unused)
+            continue;
+        place[i] = kept;
+        if (kept == i) {
+            ++kept;
+            continue;
         }
-        mesh.triangles.push_back(place[corner]);
+        source.points[kept] = source.points[i];
+        if (!source.normals.empty())
+            source.normals[kept] = source.normals[i];
+        for (std::size_t k = 0; k < 2 && !source.texture.empty(); ++k)
+            source.texture[2 * std::size_t{kept} + k] = source.texture[2 * i + k];
+        ++kept;
     }
-    return mesh;
+    if (kept == count)
+        return;
+    source.points.resize(kept);
+    source.normals.resize(source.normals.empty() ? 0 : kept);
+    source.texture.resize(source.texture.empty() ? 0 : 2 * std::size_t{kept});
+    for (std::uint32_t& corner : source.corners)
+        corner = place[corner];
+}
+
+/// Texture coordinates with v upwards, as everywhere inside; the format has it downwards.
+void turn_texture(std::vector<double>& texture)
+{
+    for (std::size_t i = 0; i + 1 < texture.size(); i += 2) {
+        texture[i] = std::isfinite(texture[i]) ? texture[i] : 0;
+        texture[i + 1] = std::isfinite(texture[i + 1]) ? 1 - texture[i + 1] : 0;
+    }
+}
+
+Direction front_of(const Mesh& mesh, std::size_t i)
+{
+    const Point& a = mesh.points[mesh.triangles[i]];
+    return normalized(cross(mesh.points[mesh.triangles[i + 1]] - a, mesh.points[mesh.triangles[i + 2]] - a));
 }
 
 /// Normals that only repeat the planes of the triangles say nothing; missing ones take the plane of a triangle.
 void settle_normals(Mesh& mesh)
 {
-    bool bent = false;
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        const Point& a = mesh.points[mesh.triangles[i]];
-        const Direction front =
-            normalized(cross(mesh.points[mesh.triangles[i + 1]] - a, mesh.points[mesh.triangles[i + 2]] - a));
+    bool missing = false, bent = false;
+    for (Direction& normal : mesh.normals) {
+        normal = is_finite(normal) ? normalized(normal) : Vec3{};
+        missing = missing || normal == Vec3{};
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size() && (missing || !bent); i += 3) {
+        const Direction front = front_of(mesh, i);
         for (std::size_t k = 0; k < 3; ++k) {
             Direction& normal = mesh.normals[mesh.triangles[i + k]];
             if (normal == Vec3{})
@@ -170,22 +203,54 @@ void settle_normals(Mesh& mesh)
 
 } // namespace
 
-GltfTriangles read_triangles(const GltfDocument& document, const GltfPrimitive& primitive)
+GltfTriangles read_triangles(const GltfDocument& document, const GltfPrimitive& primitive, const GltfPose& pose)
 {
-    const Source source = primitive.draco ? from_draco(document, primitive) : from_accessors(document, primitive);
-    const std::size_t count = source.positions.size() / 3;
+    Source source = primitive.draco ? from_draco(document, primitive) : from_accessors(document, primitive);
+    const std::size_t count = source.points.size();
+    if (source.normals.size() != count)
+        source.normals.clear();
+    if (source.texture.size() != 2 * count)
+        source.texture.clear();
     for (const std::uint32_t corner : source.corners)
         if (corner >= count)
             throw InputError(document.name + ": accessor " + std::to_string(primitive.indices),
                              "index " + std::to_string(corner) + " of " + std::to_string(count) + " vertices");
+    if (pose.bends())
+        take_pose(document, primitive, pose, source.points, source.normals);
+    source.corners = unrolled(std::move(source.corners), primitive.draco ? 4 : primitive.mode);
     GltfTriangles result;
-    const std::vector<std::uint32_t> corners = unrolled(source.corners, primitive.draco ? 4 : primitive.mode);
-    const std::vector<std::uint32_t> kept = with_area(source.positions, corners, document.name);
-    result.without_area = (corners.size() - kept.size()) / 3;
-    result.mesh = compact_mesh(source, kept);
+    const std::size_t before = source.corners.size();
+    keep_with_area(source.points, source.corners, document.name);
+    result.without_area = (before - source.corners.size()) / 3;
+    keep_used(source);
+    turn_texture(source.texture);
+    result.mesh = {std::move(source.points), std::move(source.corners), std::move(source.normals),
+                   std::move(source.texture)};
     if (!result.mesh.normals.empty())
         settle_normals(result.mesh);
     return result;
+}
+
+bool is_closed(const Mesh& mesh)
+{
+    // Corners of one place are one corner, however many normals or texture coordinates they have there.
+    std::vector<std::uint32_t> order(mesh.points.size()), place(mesh.points.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    const auto key = [&](std::uint32_t i) { return std::tie(mesh.points[i].x, mesh.points[i].y, mesh.points[i].z); };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for (std::size_t i = 0; i < order.size(); ++i)
+        place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> there, back;
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = place[mesh.triangles[i + k]], b = place[mesh.triangles[i + (k + 1) % 3]];
+            there.emplace_back(a, b);
+            back.emplace_back(b, a);
+        }
+    std::sort(there.begin(), there.end());
+    std::sort(back.begin(), back.end());
+    return !there.empty() && there == back;
 }
 
 } // namespace lightwell

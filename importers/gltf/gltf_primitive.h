@@ -2,6 +2,7 @@
 
 #include "engine/scene/surface.h"
 #include "importers/gltf/gltf_document.h"
+#include "importers/gltf/gltf_pose.h"
 
 namespace lightwell {
 
@@ -12,6 +13,9 @@ struct GltfTriangles {
 };
 
 /// @throws InputError when an accessor, an index or packed data cannot be used: the reason names the accessor
-GltfTriangles read_triangles(const GltfDocument& document, const GltfPrimitive& primitive);
+GltfTriangles read_triangles(const GltfDocument& document, const GltfPrimitive& primitive, const GltfPose& pose);
+
+/// True when each edge is walked once in each direction: the triangles enclose a body.
+bool is_closed(const Mesh& mesh);
 
 } // namespace lightwell

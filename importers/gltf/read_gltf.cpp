@@ -21,6 +21,7 @@
 #include "importers/gltf/gltf_container.h"
 #include "importers/gltf/gltf_document.h"
 #include "importers/gltf/gltf_json.h"
+#include "importers/gltf/gltf_parts.h"
 
 #include <limits>
 
@@ -176,10 +177,10 @@ GltfAccessor accessor_of(const tinygltf::Accessor& from)
 
 GltfMesh mesh_of(const tinygltf::Mesh& from)
 {
-    GltfMesh mesh{from.name, {}};
+    GltfMesh mesh{from.name, {}, from.weights};
     for (const tinygltf::Primitive& part : from.primitives) {
-        GltfPrimitive primitive{
-            part.mode, index_in(part.extras, "indices"), part.material, part.attributes, {}, !part.targets.empty()};
+        GltfPrimitive primitive{part.mode,   index_in(part.extras, "indices"), part.material, part.attributes, {},
+                                part.targets};
         if (const Value* packed = extension(part.extensions, "KHR_draco_mesh_compression"))
             primitive.draco = GltfDraco{index_in(*packed, "bufferView"), indices_in(*packed, "attributes")};
         mesh.primitives.push_back(std::move(primitive));
@@ -217,76 +218,14 @@ GltfNode node_of(const tinygltf::Node& from, const std::string& place)
     node.to_parent = placement_of(from, place);
     node.mesh = from.mesh;
     node.camera = from.camera;
-    node.skinned = from.skin >= 0;
+    node.skin = from.skin;
+    node.weights = from.weights;
     node.children = from.children;
     if (const Value* light = extension(from.extensions, "KHR_lights_punctual"))
         node.light = index_in(*light, "light");
     if (const Value* copies = extension(from.extensions, "EXT_mesh_gpu_instancing"))
         node.instancing = indices_in(*copies, "attributes");
     return node;
-}
-
-Spectrum colour_of(const std::vector<double>& factors, const Spectrum& fallback)
-{
-    return factors.size() >= 3 ? Spectrum{factors[0], factors[1], factors[2]} : fallback;
-}
-
-/// Three numbers of an extension's array.
-Spectrum colour_in(const Value& object, const char* key, const Spectrum& fallback)
-{
-    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsArray())
-        return fallback;
-    const Value list = object.Get(key);
-    std::vector<double> numbers;
-    for (std::size_t i = 0; i < list.ArrayLen(); ++i)
-        numbers.push_back(list.Get(static_cast<int>(i)).IsNumber() ? list.Get(static_cast<int>(i)).GetNumberAsDouble()
-                                                                   : 0);
-    return colour_of(numbers, fallback);
-}
-
-void take_material_extensions(const tinygltf::Material& from, GltfMaterial& material)
-{
-    for (const auto& [name, value] : from.extensions) {
-        if (name == "KHR_materials_emissive_strength") {
-            material.emission = material.emission * number_in(value, "emissiveStrength", 1);
-        } else if (name == "KHR_materials_transmission") {
-            material.transmission = number_in(value, "transmissionFactor", 0);
-        } else if (name == "KHR_materials_ior") {
-            material.index = number_in(value, "ior", 1.5);
-        } else if (name == "KHR_materials_specular") {
-            material.specular = number_in(value, "specularFactor", 1);
-        } else if (name == "KHR_materials_unlit") {
-            material.unlit = true;
-        } else if (name == "KHR_materials_pbrSpecularGlossiness") {
-            material.base_colour = colour_in(value, "diffuseFactor", {1, 1, 1});
-            material.metal_stated = true;
-            material.metallic = 0;
-            material.roughness = 1 - number_in(value, "glossinessFactor", 1);
-            material.not_modelled.push_back(name + " beyond its diffuse colour and glossiness");
-        } else {
-            material.not_modelled.push_back(name);
-        }
-    }
-}
-
-GltfMaterial material_of(const tinygltf::Material& from)
-{
-    GltfMaterial material;
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    material.name = from.name;
-    material.base_colour = colour_of(pbr.baseColorFactor, {1, 1, 1});
-    material.alpha = pbr.baseColorFactor.size() >= 4 ? pbr.baseColorFactor[3] : 1;
-    material.alpha_mode = from.alphaMode;
-    material.metallic = pbr.metallicFactor;
-    material.roughness = pbr.roughnessFactor;
-    material.metal_stated = from.values.count("metallicFactor") > 0 || from.values.count("roughnessFactor") > 0 ||
-                            pbr.metallicRoughnessTexture.index >= 0;
-    material.emission = colour_of(from.emissiveFactor, {});
-    for (const int texture : {pbr.baseColorTexture.index, pbr.metallicRoughnessTexture.index, from.normalTexture.index,
-                              from.occlusionTexture.index, from.emissiveTexture.index})
-        material.textures += texture >= 0 ? 1 : 0;
-    take_material_extensions(from, material);
-    return material;
 }
 
 GltfCamera camera_of(const tinygltf::Camera& from)
@@ -343,6 +282,7 @@ GltfDocument read_gltf(const std::filesystem::path& file, Report& report)
 {
     GltfDocument document;
     document.name = file.filename().string();
+    document.file = file;
     document.files.push_back(std::make_unique<MappedFile>(file));
     const GltfContainer container = open_container(document.files[0]->bytes(), document.name);
     const GltfJson json = prepare_json(container.json, document.name, report);
@@ -357,8 +297,7 @@ GltfDocument read_gltf(const std::filesystem::path& file, Report& report)
         document.meshes.push_back(mesh_of(mesh));
     for (std::size_t i = 0; i < model.nodes.size(); ++i)
         document.nodes.push_back(node_of(model.nodes[i], document.name + ": node " + std::to_string(i)));
-    for (const tinygltf::Material& material : model.materials)
-        document.materials.push_back(material_of(material));
+    read_parts(json.parts, document);
     for (const tinygltf::Camera& camera : model.cameras)
         document.cameras.push_back(camera_of(camera));
     document.roots = roots_of(model, document.name, report);

@@ -1,9 +1,9 @@
 #include "importers/obj/build_obj.h"
 
 #include "engine/base/box.h"
-#include "engine/base/random.h"
 #include "engine/base/text.h"
 #include "engine/geometry/triangulate.h"
+#include "importers/obj/corner_index.h"
 
 #include <algorithm>
 #include <array>
@@ -31,20 +31,10 @@ constexpr double covered_area_tolerance = 1e-9;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-struct CornerHash {
-    std::size_t operator()(const ObjCorner& c) const noexcept
-    {
-        const auto bits = [](std::int32_t index) {
-            return static_cast<std::uint64_t>(static_cast<std::uint32_t>(index));
-        };
-        return mix_bits(bits(c.point) << 32 | bits(c.normal), bits(c.texture));
-    }
-};
-
 /// The triangles of one set of names, with shared corners.
 struct MeshInProgress {
     Mesh mesh;
-    std::unordered_map<ObjCorner, std::uint32_t, CornerHash> known;
+    CornerIndex known;
     std::uint32_t first_face = 0;
     bool textured = true;
 };
@@ -61,27 +51,51 @@ struct Outline {
     bool planar() const { return deviation_m <= planar_tolerance * diameter_m; }
 };
 
-Triangles fan(std::size_t count)
+void fan(std::size_t count, Triangles& triangles)
 {
-    Triangles triangles;
+    triangles.clear();
     for (std::uint32_t i = 1; i + 1 < count; ++i)
         triangles.push_back({0, i, i + 1});
-    return triangles;
+}
+
+Vec3 triangle_area(const std::vector<Point>& points, const std::array<std::uint32_t, 3>& corners)
+{
+    const Point& a = points[corners[0]];
+    return 0.5 * cross(points[corners[1]] - a, points[corners[2]] - a);
+}
+
+/// Cuts a quadrangle along its shorter diagonal, unless a corner points inwards.  @return false when one does
+bool cut_quad(const Outline& outline, Triangles& triangles)
+{
+    const std::vector<Point>& p = outline.points;
+    if (length(p[2] - p[0]) <= length(p[3] - p[1]))
+        triangles.assign({{0, 1, 2}, {0, 2, 3}});
+    else
+        triangles.assign({{0, 1, 3}, {1, 2, 3}});
+    constexpr std::uint32_t corners[4][3] = {{0, 1, 2}, {1, 2, 3}, {2, 3, 0}, {3, 0, 1}};
+    for (const auto& [a, b, c] : corners)
+        if (!(dot(triangle_area(p, {a, b, c}), outline.area) > 0))
+            return false;
+    return true;
 }
 
 /// Cuts an outline that is not planar ear by ear as seen along its area vector; one that crosses itself, or has too
 /// many corners for that, becomes a fan from its first corner.
-Triangles cut(const Outline& outline)
+void cut(const Outline& outline, Triangles& triangles)
 {
     const std::vector<Point>& points = outline.points;
-    if (points.size() > most_corners_for_ears || !outline.has_area())
-        return fan(points.size());
-    Triangles ears = triangulate(points.data(), points.size());
+    const std::size_t count = points.size();
+    if (count == 3 || count > most_corners_for_ears || !outline.has_area())
+        return fan(count, triangles);
+    if (count == 4 && cut_quad(outline, triangles))
+        return;
+    triangles = triangulate(points.data(), count);
     Vec3 covered;
-    for (const auto& [a, b, c] : ears)
-        covered += 0.5 * cross(points[b] - points[a], points[c] - points[a]);
+    for (const auto& triangle : triangles)
+        covered += triangle_area(points, triangle);
     const double missed = 1 - dot(covered, outline.area) / dot(outline.area, outline.area);
-    return std::fabs(missed) <= covered_area_tolerance ? ears : fan(points.size());
+    if (!(std::fabs(missed) <= covered_area_tolerance))
+        fan(count, triangles);
 }
 
 /// Stable over re-import: the number of the `f` statement in the file.
@@ -117,7 +131,9 @@ private:
     std::vector<Direction> normals_;
     std::vector<std::optional<ModifierId>> modifiers_; ///< by state
     std::unordered_map<std::uint32_t, MeshInProgress> smooth_meshes_, flat_meshes_;
-    Outline outline_; ///< of the face at hand; kept to spare allocations
+    Outline outline_; ///< of the face at hand; this and the next two are kept to spare allocations
+    Triangles triangles_;
+    std::vector<std::uint32_t> mesh_points_; ///< number in the mesh by corner of the outline
     ObjTally warped_, crossing_, repeated_, against_;
     double worst_deviation_m_ = 0;
 };
@@ -234,9 +250,9 @@ std::uint32_t ObjBuilder::mesh_point(MeshInProgress& target, std::size_t corner,
     ObjCorner key = outline_.corners[corner];
     if (!with_normals)
         key.normal = -1;
-    const auto [entry, fresh] = target.known.try_emplace(key, static_cast<std::uint32_t>(target.mesh.points.size()));
-    if (!fresh)
-        return entry->second;
+    const std::uint32_t known = target.known.size(), point = target.known.find_or_add(key);
+    if (point < known)
+        return point;
     target.mesh.points.push_back(outline_.points[corner]);
     if (with_normals)
         target.mesh.normals.push_back(normals_[static_cast<std::size_t>(key.normal)]);
@@ -244,7 +260,7 @@ std::uint32_t ObjBuilder::mesh_point(MeshInProgress& target, std::size_t corner,
     for (std::size_t i = 0; i < 2; ++i)
         target.mesh.texture.push_back(key.texture < 0 ? 0
                                                       : file_.texture[2 * static_cast<std::size_t>(key.texture) + i]);
-    return entry->second;
+    return point;
 }
 
 void ObjBuilder::add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& meshes, const ObjFace& face,
@@ -252,18 +268,17 @@ void ObjBuilder::add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& 
 {
     constexpr std::uint32_t not_yet = std::numeric_limits<std::uint32_t>::max();
     const double least_area_m2 = zero_area_tolerance * outline_.diameter_m * outline_.diameter_m;
-    std::vector<std::uint32_t> mesh_points(outline_.points.size(), not_yet);
+    mesh_points_.assign(outline_.points.size(), not_yet);
+    cut(outline_, triangles_);
     bool any = false;
-    for (const auto& triangle : cut(outline_)) {
-        const Point& a = outline_.points[triangle[0]];
-        const Vec3 twice_area = cross(outline_.points[triangle[1]] - a, outline_.points[triangle[2]] - a);
-        if (!(0.5 * length(twice_area) > least_area_m2))
+    for (const auto& triangle : triangles_) {
+        if (!(length(triangle_area(outline_.points, triangle)) > least_area_m2))
             continue;
         const auto [entry, fresh] = meshes.try_emplace(face.state);
         if (fresh)
             entry->second.first_face = face.number;
         for (const std::uint32_t corner : triangle) {
-            std::uint32_t& point = mesh_points[corner];
+            std::uint32_t& point = mesh_points_[corner];
             if (point == not_yet)
                 point = mesh_point(entry->second, corner, with_normals);
             entry->second.mesh.triangles.push_back(point);

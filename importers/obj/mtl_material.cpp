@@ -1,4 +1,5 @@
 #include "engine/base/text.h"
+#include "importers/layered_materials.h"
 #include "importers/obj/mtl.h"
 
 #include <algorithm>
@@ -90,7 +91,7 @@ Material metal_of(const MtlMaterial& mtl, const std::string& place, Report& repo
 }
 
 /// Kd is kept, since it decides how much light a room has; the highlight gets at most what is left.
-Material plastic_of(const MtlMaterial& mtl, const std::string& place, Report& report)
+Plastic plastic_of(const MtlMaterial& mtl, const std::string& place, Report& report)
 {
     Spectrum diffuse = Spectrum::grey(assumed_reflectance);
     if (mtl.diffuse)
@@ -108,6 +109,20 @@ Material plastic_of(const MtlMaterial& mtl, const std::string& place, Report& re
     return Plastic{within_unit(diffuse / (1 - specularity), "Kd", place, report), specularity, roughness_of(mtl)};
 }
 
+/// The layers of the physically based statements over a plastic: sheen, then a clear coat.
+Plastic with_layers(const MtlMaterial& mtl, Plastic plastic, const std::string& place, Report& report)
+{
+    if (mtl.sheen && mtl.sheen->max() > 0) {
+        plastic = with_sheen(plastic, unit_colour(mtl.sheen, "Ps", place, report), mtl.roughness.value_or(1));
+        report.add(Finding::approximated, place, "sheen is added to the diffuse reflectance");
+    }
+    if (mtl.coat.value_or(0) > 0) {
+        plastic = with_coat(plastic, *mtl.coat, std::pow(std::clamp(mtl.coat_roughness.value_or(0), 0.0, 1.0), 2));
+        report.add(Finding::approximated, place, "clear coat and highlight become one highlight");
+    }
+    return plastic;
+}
+
 } // namespace
 
 Material material_of(const MtlMaterial& mtl, const std::string& place, Report& report)
@@ -119,13 +134,22 @@ Material material_of(const MtlMaterial& mtl, const std::string& place, Report& r
     }
     if (is_glass(mtl))
         return glass_of(mtl, place, report);
-    if (mtl.dissolve.value_or(1) < 1)
-        report.add(Finding::unsupported, place, "d from 0.5 to 1 is taken as opaque");
+    if (mtl.anisotropy.value_or(0) != 0)
+        report.add(Finding::approximated, place, "brushed highlight (`aniso`) is taken as round");
+    const bool open = mtl.dissolve.value_or(1) < 1;
     const bool black = !mtl.diffuse || mtl.diffuse->max() <= 0;
     const bool mirror_like = mtl.illum.value_or(0) == 3 && black && mtl.specular && mtl.specular->max() > 0;
-    if (mtl.metallic.value_or(0) >= 0.5 || mirror_like)
+    if (mtl.metallic.value_or(0) >= 0.5 || mirror_like) {
+        if (open)
+            report.add(Finding::approximated, place, "metal with d below 1 is taken as opaque");
         return metal_of(mtl, place, report);
-    return plastic_of(mtl, place, report);
+    }
+    const Plastic plastic = with_layers(mtl, plastic_of(mtl, place, report), place, report);
+    if (!open)
+        return plastic;
+    report.add(Finding::approximated, place,
+               "d from 0.5 to 1: that share of the area is the surface, light goes straight through the rest");
+    return partly_open(plastic, *mtl.dissolve);
 }
 
 } // namespace lightwell

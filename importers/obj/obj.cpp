@@ -5,10 +5,13 @@
 #include "importers/obj/build_obj.h"
 #include "importers/obj/mtl.h"
 #include "importers/obj/obj_file.h"
-#include "importers/obj/obj_lines.h"
+#include "importers/obj/smoothing.h"
+#include "importers/obj/vertex_colours.h"
 #include "importers/units.h"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
 namespace lightwell {
 namespace {
@@ -56,67 +59,81 @@ bool y_is_up(const ObjFile& file, const ImportOptions& options, Imported& import
     return true;
 }
 
-/// The files that one `mtllib` line may mean: the whole rest of the line, or its words; never a folder.
+/// The files that one `mtllib` line may mean: the whole rest of the line, or its words.
 std::vector<std::filesystem::path> libraries_in(const std::string& names, const std::filesystem::path& folder,
                                                 const std::string& place, Report& report)
 {
-    const auto find = [&](std::string name) -> std::optional<std::filesystem::path> {
-        std::replace(name.begin(), name.end(), '\\', '/');
-        std::error_code none;
-        for (const std::filesystem::path& path : {folder / name, folder / std::filesystem::path(name).filename()})
-            if (std::filesystem::is_regular_file(path, none))
-                return path;
-        return {};
-    };
-    if (const auto whole = find(names))
+    if (const auto whole = find_beside(names, folder))
         return {*whole};
     std::vector<std::filesystem::path> found;
+    std::vector<std::string> missing;
     for (const std::string_view word : split(names)) {
-        if (const auto path = find(std::string(word)))
+        if (const auto path = find_beside(std::string(word), folder))
             found.push_back(*path);
         else
-            report.add(Finding::ignored, place,
-                       "material library \"" + std::string(word) +
-                           "\" is not there; its materials are chosen by layer");
+            missing.emplace_back(word);
+    }
+    if (found.empty())
+        missing = {names};
+    for (const std::string& name : missing)
+        report.add(Finding::ignored, place,
+                   "material library \"" + name + "\" is not there; its materials are chosen by layer");
+    return found;
+}
+
+/// Libraries that the file names; when none of them is there, the one that is named as the file itself.
+std::vector<std::filesystem::path> libraries_of(const ObjFile& file, const std::filesystem::path& path, Report& report)
+{
+    std::vector<std::filesystem::path> found;
+    for (const std::string& names : file.libraries)
+        for (const std::filesystem::path& library : libraries_in(names, path.parent_path(), file.name, report))
+            if (std::find(found.begin(), found.end(), library) == found.end())
+                found.push_back(library);
+    const std::string own = path.stem().string() + ".mtl";
+    if (!found.empty() || file.libraries.empty())
+        return found;
+    if (const auto library = find_beside(own, path.parent_path())) {
+        report.add(Finding::assumed, file.name, "\"" + own + "\" stands in for the material library");
+        found.push_back(*library);
     }
     return found;
 }
 
-void read_libraries(const ObjFile& file, const std::filesystem::path& folder, std::map<std::string, Spectrum>& colours,
-                    Imported& imported)
+/// @param described  names of the materials so far; receives those of the library
+void read_library(const std::filesystem::path& library, std::set<std::string>& described,
+                  std::map<std::string, Spectrum>& colours, Imported& imported)
 {
-    std::map<std::string, bool> known;
-    for (const std::string& names : file.libraries)
-        for (const std::filesystem::path& path : libraries_in(names, folder, file.name, imported.report)) {
-            if (!known.try_emplace("file " + path.string(), true).second)
-                continue;
-            const MappedFile mapped(path);
-            const std::string name = path.filename().string();
-            for (const MtlMaterial& mtl : read_mtl(mapped.bytes(), name, imported.report)) {
-                const std::string place = name + ":" + std::to_string(mtl.line) + ": material \"" + mtl.name + '"';
-                if (!known.try_emplace("material " + mtl.name, true).second) {
-                    imported.report.add(Finding::ignored, place, "defined twice; the first one counts");
-                    continue;
-                }
-                imported.file_materials.emplace_back(mtl.name, material_of(mtl, place, imported.report));
-                if (mtl.diffuse)
-                    colours.emplace(mtl.name, *mtl.diffuse);
-            }
+    const std::string name = library.filename().string();
+    std::optional<MappedFile> mapped;
+    try {
+        mapped.emplace(library);
+    } catch (const InputError& error) {
+        imported.report.add(Finding::ignored, name, std::string("material library left out: ") + error.what());
+        return;
+    }
+    MtlPictures pictures(library.parent_path());
+    for (MtlMaterial& mtl : read_mtl(mapped->bytes(), name, imported.report)) {
+        const std::string place = name + ":" + std::to_string(mtl.line) + ": material \"" + mtl.name + '"';
+        if (!described.insert(mtl.name).second) {
+            imported.report.add(Finding::ignored, place, "defined twice; the first one counts");
+            continue;
         }
-    if (!imported.file_materials.empty())
-        imported.report.add(Finding::converted, file.name,
-                            "colours of the material library are taken as linear Rec.709");
+        pictures.apply(mtl, place, imported.report, imported.file_textures);
+        imported.file_materials.emplace_back(mtl.name, material_of(mtl, place, imported.report));
+        if (mtl.diffuse)
+            colours.emplace(mtl.name, *mtl.diffuse);
+    }
 }
 
 void note_undefined_materials(const ObjFile& file, Imported& imported)
 {
-    for (const ObjState& state : file.states) {
-        const auto same = [&](const auto& entry) { return entry.first == state.material; };
-        if (!state.material.empty() &&
-            std::none_of(imported.file_materials.begin(), imported.file_materials.end(), same))
+    std::set<std::string> known{std::string()};
+    for (const auto& [name, material] : imported.file_materials)
+        known.insert(name);
+    for (const ObjState& state : file.states)
+        if (known.insert(state.material).second)
             imported.report.add(Finding::ignored, file.name,
                                 "material \"" + state.material + "\" is used but not described; chosen by layer");
-    }
 }
 
 } // namespace
@@ -142,14 +159,21 @@ Imported import_obj(const std::filesystem::path& path, const ImportOptions& opti
 {
     const MappedFile mapped(path);
     Imported imported;
+    std::set<std::string> described;
     std::map<std::string, Spectrum> colours;
-    const ObjFile file = read_obj(mapped.bytes(), path.filename().string());
+    ObjFile file = read_obj(mapped.bytes(), path.filename().string());
     imported.ledger.add(file.ledger);
-    imported.report.add(file.report);
     const MetresPerUnit unit = unit_of(file, options, imported);
     const bool y_up = y_is_up(file, options, imported);
-    read_libraries(file, path.parent_path(), colours, imported);
+    for (const std::filesystem::path& library : libraries_of(file, path, imported.report))
+        read_library(library, described, colours, imported);
+    if (!imported.file_materials.empty())
+        imported.report.add(Finding::converted, file.name,
+                            "colours of the material library are taken as linear Rec.709");
+    take_vertex_colours(file, imported);
     note_undefined_materials(file, imported);
+    smooth_groups(file);
+    imported.report.add(file.report);
     build_obj(file, to_metres_z_up(unit, y_up), colours, imported);
     return imported;
 }

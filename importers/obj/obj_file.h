@@ -22,7 +22,8 @@ struct ObjFace {
     std::uint32_t count; ///< >= 3
     std::uint32_t state; ///< into ObjFile::states
     std::uint32_t line;
-    std::uint32_t number; ///< 1 for the first `f` statement of the file, used or not
+    std::uint32_t number;    ///< 1 for the first `f` statement of the file, used or not
+    std::uint32_t smoothing; ///< group of `s`; 0: none
 };
 
 /// The names that were in force when a face was written.
@@ -47,6 +48,7 @@ struct ObjTally {
 struct ObjFile {
     std::string name; ///< for places in messages: the file's name without its folder
     std::vector<Point> points;
+    std::vector<float> colours;  ///< empty, or r, g, b as written for each point; NaN where there is none
     std::vector<double> texture; ///< u, v for each `vt`
     std::vector<Vec3> normals;
     std::vector<ObjCorner> corners;

@@ -12,6 +12,19 @@ std::string quoted(std::string_view word)
     return std::string("`").append(word.substr(0, 20)).append("`");
 }
 
+bool is_texture(std::string_view word)
+{
+    return word.substr(0, 4) == "map_" || word == "refl" || word == "bump" || word == "disp" || word == "decal" ||
+           word == "norm";
+}
+
+/// Linear Rec.709 of CIE XYZ.  Source  IEC 61966-2-1, inverse of the matrix of its primaries and white
+Spectrum rec709_of_xyz(double x, double y, double z)
+{
+    return {3.2406 * x - 1.5372 * y - 0.4986 * z, -0.9689 * x + 1.8758 * y + 0.0415 * z,
+            0.0557 * x - 0.2040 * y + 1.0570 * z};
+}
+
 /// Reads the statements of one library in order.
 class MtlReader {
 public:
@@ -79,13 +92,22 @@ void MtlReader::statement(std::string_view word, std::string_view rest)
         material.roughness = number(word, rest);
     } else if (word == "Pm") {
         material.metallic = number(word, rest);
+    } else if (word == "Ps") {
+        material.sheen = colour(word, rest);
+    } else if (word == "Pc") {
+        material.coat = number(word, rest);
+    } else if (word == "Pcr") {
+        material.coat_roughness = number(word, rest);
+    } else if (word == "aniso") {
+        material.anisotropy = number(word, rest);
     } else if (word == "illum") {
         if (const std::optional<double> model = number(word, rest); model && *model >= 0 && *model <= 10)
             material.illum = static_cast<int>(*model);
-    } else if (word.substr(0, 4) == "map_" || word == "refl" || word == "bump" || word == "disp" || word == "decal" ||
-               word == "norm") {
-        note(Finding::unsupported,
-             "texture " + quoted(word) + " is not modelled yet; the plain value beside it is used");
+    } else if (is_texture(word)) {
+        material.textures.push_back(read_texture_statement(word, rest, place(), report_));
+        material.textures.back().line = lines_.number();
+    } else if (word != "Ka" && word != "sharpness" && word != "anisor") { // light that is everywhere, and reflections
+        note(Finding::ignored, "unknown statement " + quoted(word));
     }
 }
 
@@ -103,16 +125,24 @@ std::optional<double> MtlReader::number(std::string_view word, std::string_view 
 
 std::optional<Spectrum> MtlReader::colour(std::string_view word, std::string_view rest)
 {
-    const std::string_view whole = rest;
-    const std::optional<double> r = parse_double(next_word(rest));
-    if (!r || !std::isfinite(*r)) {
-        const bool known = trimmed(whole).substr(0, 8) == "spectral" || trimmed(whole).substr(0, 3) == "xyz";
-        note(known ? Finding::unsupported : Finding::ignored,
-             quoted(word) + " is not three numbers; the material does without it");
+    std::string_view ahead = rest;
+    const std::string_view kind = next_word(ahead);
+    if (kind == "spectral") {
+        note(Finding::unsupported, quoted(word) + " names a spectral curve; the material does without it");
         return {};
     }
-    const std::optional<double> g = parse_double(next_word(rest)), b = parse_double(next_word(rest));
-    const Spectrum found{*r, g.value_or(*r), b.value_or(g.value_or(*r))}; // one number stands for all three
+    const bool is_xyz = kind == "xyz";
+    if (is_xyz)
+        rest = ahead;
+    const std::optional<double> first = parse_double(next_word(rest));
+    const std::optional<double> second = parse_double(next_word(rest)), third = parse_double(next_word(rest));
+    if (!first) {
+        note(Finding::ignored, quoted(word) + " is not three numbers; the material does without it");
+        return {};
+    }
+    // One number stands for all three.
+    const Spectrum numbers{*first, second.value_or(*first), third.value_or(second.value_or(*first))};
+    const Spectrum found = is_xyz ? rec709_of_xyz(numbers.r, numbers.g, numbers.b) : numbers;
     if (found.is_finite())
         return found;
     note(Finding::ignored, quoted(word) + " is not finite; the material does without it");

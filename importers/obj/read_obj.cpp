@@ -33,6 +33,9 @@ private:
     void texture(std::string_view rest);
     void normal(std::string_view rest);
     void face(std::string_view rest);
+    void vertex_colour(std::string_view first, std::string_view rest);
+    void free_form(std::string_view word);
+    void smoothing(std::string_view group);
     std::uint32_t current_state();
     void check_faces();
     const char* bad_corner(const ObjFace& face);
@@ -45,7 +48,9 @@ private:
     std::optional<std::uint32_t> state_index_;
     std::unordered_map<std::string, std::uint32_t> known_states_;
     std::uint32_t faces_read_ = 0;
-    ObjTally colours_, weights_, bad_vertices_, bad_textures_, bad_normals_, smoothing_, unknown_, bad_faces_;
+    std::uint32_t smoothing_ = 0;
+    std::string curve_type_, curve_degree_; ///< of `cstype` and `deg`
+    ObjTally weights_, bad_vertices_, bad_textures_, bad_normals_, unknown_, bad_faces_;
     std::string first_unknown_;
 };
 
@@ -126,32 +131,58 @@ void ObjReader::statement(std::string_view word, std::string_view rest)
 /// What has no area or no meaning for light.  @return false when the format has no such statement
 bool ObjReader::rare_statement(std::string_view word, std::string_view rest)
 {
-    static constexpr std::string_view quiet[] = {"cstype",    "deg",   "bmat",     "step",     "parm",   "trim",
-                                                 "hole",      "scrv",  "sp",       "end",      "con",    "vp",
-                                                 "mg",        "bevel", "c_interp", "d_interp", "lod",    "shadow_obj",
-                                                 "trace_obj", "ctech", "stech",    "usemap",   "maplib", "vw"};
+    static constexpr std::string_view quiet[] = {"bmat",     "step",     "parm",  "trim",       "hole",      "scrv",
+                                                 "sp",       "end",      "con",   "vp",         "mg",        "bevel",
+                                                 "c_interp", "d_interp", "lod",   "shadow_obj", "trace_obj", "res",
+                                                 "vw",       "usemap",   "ctech", "stech",      "maplib"};
     const std::string layer = layer_of(state_);
     if (word == "mtllib") {
         file_.libraries.push_back(to_utf8(name_in(rest)));
     } else if (word == "s") {
-        const std::string_view group = next_word(rest);
-        if (group != "off" && group != "0")
-            smoothing_.add(lines_.number());
+        smoothing(next_word(rest));
+    } else if (word == "cstype") {
+        curve_type_ = to_utf8(trimmed(rest).substr(0, 40));
+    } else if (word == "deg") {
+        curve_degree_ = to_utf8(trimmed(rest).substr(0, 40));
     } else if (word == "l") {
         file_.ledger.skipped("line", layer, "a line has no area");
     } else if (word == "p") {
         file_.ledger.skipped("point", layer, "a point has no area");
-    } else if (word == "curv" || word == "curv2") {
-        file_.ledger.skipped("curve", layer, "a curve has no area");
-    } else if (word == "surf") {
-        file_.ledger.skipped("free-form surface", layer, "free-form surfaces are not modelled yet");
-        file_.report.add(Finding::unsupported, place(lines_.number()), "free-form surface left out: not modelled yet");
+    } else if (word == "curv" || word == "curv2" || word == "cdc" || word == "cdp" || word == "surf" || word == "bsp" ||
+               word == "bzp") {
+        free_form(word);
     } else if (word == "call" || word == "csh") {
         file_.report.add(Finding::ignored, place(lines_.number()), "`call` and `csh` are never carried out");
     } else {
         return std::find(std::begin(quiet), std::end(quiet), word) != std::end(quiet);
     }
     return true;
+}
+
+/// Free-form statements, and those that the format had for them in its first version (`bsp`, `bzp`, `cdc`, `cdp`).
+void ObjReader::free_form(std::string_view word)
+{
+    const bool surface = word == "surf" || word == "bsp" || word == "bzp";
+    const char* reason = surface ? "free-form surfaces are not modelled yet" : "a curve has no area";
+    const bool old = word == "bsp" || word == "bzp" || word == "cdc" || word == "cdp";
+    std::string text = surface ? "free-form surface (" : "curve (";
+    text.append(old || curve_type_.empty() ? word : std::string_view(curve_type_));
+    if (!old && !curve_degree_.empty())
+        text.append(" of degree ").append(curve_degree_);
+    file_.ledger.skipped(surface ? "free-form surface" : "curve", layer_of(state_), reason);
+    file_.report.add(surface ? Finding::unsupported : Finding::ignored, place(lines_.number()),
+                     text.append(") left out: ").append(reason));
+}
+
+void ObjReader::smoothing(std::string_view group)
+{
+    const std::optional<long long> number = parse_integer(group);
+    const bool names_none = group.empty() || group == "off" || (number && *number == 0);
+    constexpr std::uint32_t one_group = 1; // "on", and what else is no number
+    smoothing_ = names_none ? 0
+                 : number && *number > 0 && *number < std::numeric_limits<std::int32_t>::max()
+                     ? static_cast<std::uint32_t>(*number)
+                     : one_group;
 }
 
 void ObjReader::comment(std::string_view text)
@@ -178,13 +209,28 @@ void ObjReader::vertex(std::string_view rest)
     file_.points.push_back(point);
     if (!is_finite(point))
         bad_vertices_.add(lines_.number());
-    int more = 0;
-    while (!next_word(rest).empty())
-        ++more;
-    if (more >= 3) // x y z r g b, or x y z w r g b
-        colours_.add(lines_.number());
+    const std::string_view fourth = next_word(rest);
+    if (!fourth.empty() || !file_.colours.empty())
+        vertex_colour(fourth, rest);
+}
+
+/// What follows x y z: nothing, a weight, a colour, or both.
+void ObjReader::vertex_colour(std::string_view fourth, std::string_view rest)
+{
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    std::vector<std::string_view> words{fourth};
+    while (words.size() < 5 && !words.back().empty())
+        words.push_back(next_word(rest));
+    words.pop_back();
+    const std::size_t more = words.size();
     if (more == 1 || more == 4)
         weights_.add(lines_.number());
+    if (more < 3 && file_.colours.empty())
+        return;
+    file_.colours.resize(3 * file_.points.size(), none);
+    for (std::size_t c = 0; more >= 3 && c < 3; ++c)
+        file_.colours[3 * file_.points.size() - 3 + c] =
+            static_cast<float>(parse_double(words[more - 3 + c]).value_or(none));
 }
 
 void ObjReader::texture(std::string_view rest)
@@ -217,13 +263,17 @@ std::uint32_t ObjReader::current_state()
 
 void ObjReader::face(std::string_view rest)
 {
-    ObjFace face{static_cast<std::uint32_t>(file_.corners.size()), 0, current_state(),
-                 static_cast<std::uint32_t>(lines_.number()), ++faces_read_};
+    ObjFace face{static_cast<std::uint32_t>(file_.corners.size()),
+                 0,
+                 current_state(),
+                 static_cast<std::uint32_t>(lines_.number()),
+                 ++faces_read_,
+                 smoothing_};
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
         std::string_view parts[3];
-        for (std::string_view& part : parts) {
+        for (std::size_t i = 0; i < 3 && !word.empty(); ++i) {
             const std::size_t slash = std::min(word.find('/'), word.size());
-            part = word.substr(0, slash);
+            parts[i] = word.substr(0, slash);
             word.remove_prefix(std::min(slash + 1, word.size()));
         }
         ObjCorner corner{index_in(parts[0], file_.points.size()), index_in(parts[1], file_.texture.size() / 2),
@@ -282,10 +332,7 @@ void ObjReader::write_notes()
     note(bad_vertices_, Finding::ignored, "vertex is not three finite numbers; faces that use it are left out");
     note(bad_textures_, Finding::repaired, "corner refers to a texture coordinate that is not there; it has none");
     note(bad_normals_, Finding::repaired, "corner refers to a normal that is not there; the face stays flat");
-    note(colours_, Finding::ignored, "vertex colour: colours are taken from materials");
     note(weights_, Finding::ignored, "fourth coordinate of a vertex: it weighs rational curves only");
-    if (file_.normals.empty())
-        note(smoothing_, Finding::unsupported, "smoothing group without vertex normals: its faces stay flat");
     note(unknown_, Finding::ignored, "unknown statement, the first is `" + first_unknown_ + "`");
 }
 

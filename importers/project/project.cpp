@@ -62,7 +62,7 @@ ProjectInputs read_inputs(const TomlTable& project, const std::filesystem::path&
     const TomlTable* table = project.table("inputs");
     if (!table)
         throw InputError{project.place(), "has no [inputs]", "add [inputs] with files = [\"building.dxf\"]"};
-    table->expect_words({"files", "map", "unit", "up"});
+    table->expect_words({"files", "map", "unit", "up", "extrude"});
     ProjectInputs inputs;
     for (const std::string& name : table->texts("files"))
         inputs.files.push_back(beside(file, name));
@@ -76,6 +76,8 @@ ProjectInputs read_inputs(const TomlTable& project, const std::filesystem::path&
     inputs.up = table->text("up").value_or("");
     if (!inputs.up.empty() && inputs.up != "y" && inputs.up != "z")
         throw InputError{table->place_of("up"), "up is \"" + inputs.up + "\", expected \"y\" or \"z\""};
+    for (const std::string& rule : table->texts("extrude"))
+        inputs.raised.push_back(parse_raised_layer(rule, table->place_of("extrude")));
     return inputs;
 }
 

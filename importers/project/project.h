@@ -3,6 +3,7 @@
 #include "engine/scene/sensor.h"
 #include "engine/scene/view.h"
 #include "engine/sky/sky.h"
+#include "importers/importer.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,6 +17,7 @@ struct ProjectInputs {
     std::filesystem::path map;                ///< empty: none, as apply_layer_map() treats an empty map
     std::string unit;                         ///< empty: what the file says
     std::string up;                           ///< "", "y" or "z"
+    std::vector<RaisedLayer> raised;          ///< layers of plans that become walls
 };
 
 struct ProjectView {
@@ -51,7 +53,8 @@ struct Project {
     ProjectOutput output;
 };
 
-/// Words: `[inputs] files, map, unit, up`; `[place] latitude, longitude (east positive), utc_offset, north, time`;
+/// Words: `[inputs] files, map, unit, up, extrude`; `[place] latitude, longitude (east positive), utc_offset, north,
+/// time`;
 /// `[sky] type = "clear" | "intermediate" | "overcast" | "uniform" | "none", sun, turbidity, ground_reflectance`;
 /// `[[view]] name, text or position with direction or target, up, kind, horizontal, vertical, shift, lift, fore, aft,
 /// lens, focus; size`;

@@ -38,7 +38,7 @@ Vec3 edge_direction(unsigned hash) noexcept
     if (h < 8)
         return {first, 0, second};
     if (h == 12 || h == 14)
-        return {first, second, 0};
+        return {second, first, 0};
     return {0, first, second};
 }
 
@@ -120,8 +120,8 @@ NoiseValue gradient_noise_at(const Point& at) noexcept
 
 double fractal_noise_at(const Point& at) noexcept
 {
-    constexpr double smallest = 1e-3; // of a unit: what is rougher than that is not seen
-    constexpr double farthest = 1e15; // beyond which steps of a thousandth are lost in double precision
+    constexpr double smallest = 5e-4; // of a unit, as the recorded values have it
+    constexpr double farthest = 1e12; // beyond which such steps are lost in double precision
     if (!(max_abs(at) < farthest))
         return 0;
     std::int64_t size = static_cast<std::int64_t>(1 / smallest);

@@ -3,6 +3,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/base/text.h"
+#include "materials/patterns/channels.h"
 #include "materials/patterns/spectral_colour.h"
 
 #include <algorithm>
@@ -55,6 +56,11 @@ std::shared_ptr<const T> kept(std::map<fs::path, std::shared_ptr<const T>>& all,
 }
 
 constexpr std::string_view no_file = ".";
+
+std::string call_of(std::string function, std::size_t channel)
+{
+    return function.append("(").append(channel_word(channel)).append(")");
+}
 
 } // namespace
 
@@ -130,7 +136,8 @@ private:
         const std::string context = function_file();
         Program coordinates = compile(words(table->dimensions() - 1, "a coordinate"), context);
         const DataTable::Dimension& axis = table->axes().back();
-        return PlaceFunction::Spectral{std::move(coordinates), table, compile({function[0] + "($1)"}, context),
+        return PlaceFunction::Spectral{std::move(coordinates), table,
+                                       compile({call_of(function[0], value_channel)}, context),
                                        std::min(axis.first, axis.last), std::max(axis.first, axis.last)};
     }
     PlaceFunction::What spectral_formula()
@@ -140,7 +147,7 @@ private:
         const std::vector<double>& n = request_.numbers;
         if (n.size() < 2)
             throw InputError{request_.place, "no range of wavelengths", "the first two numbers are its ends in nm"};
-        return PlaceFunction::Spectral{no_program(), nullptr, compile({function + "($28)"}, context),
+        return PlaceFunction::Spectral{no_program(), nullptr, compile({call_of(function, wavelength_channel)}, context),
                                        std::min(n[0], n[1]), std::max(n[0], n[1])};
     }
     PlaceFunction::What table(const Form& form)
@@ -180,7 +187,11 @@ private:
         for (std::size_t i = 0; i < functions.size(); ++i) {
             const Definition* found = definitions_->find(functions[i], context.empty() ? "" : '`' + context);
             const bool of_all = found != nullptr && found->parameters.size() >= 3 && tables == 3;
-            calls.push_back(functions[i] + (of_all ? "($1, $2, $3)" : "($" + std::to_string(i + 1) + ')'));
+            std::string call = functions[i];
+            call.append("(").append(channel_word(value_channel + (of_all || tables == 1 ? 0 : i)));
+            for (std::size_t further = 1; of_all && further < tables; ++further)
+                call.append(",").append(channel_word(value_channel + further));
+            calls.push_back(call.append(")"));
         }
         return compile(calls, context);
     }

@@ -1,20 +1,18 @@
 #include "materials/patterns/place_function.h"
 
+#include "materials/patterns/channels.h"
 #include "materials/patterns/spectral_colour.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace lightwell {
 namespace {
 
-/// Number of channels that functions may ask for, as materials/functions/library/rayinit.cal numbers them.
-constexpr std::size_t place_channels = 27;
 /// A length that stands for the way to a distant source.
 constexpr double far_away = 1e10;
 
-using Channels = std::array<double, place_channels>;
+using Channels = std::array<double, most_channels>;
 
 void put(Channels& channels, std::size_t first, const Vec3& v)
 {
@@ -101,44 +99,38 @@ Spectrum PlaceFunction::formula(const Formula& formula, const PatternPlace& plac
 
 Spectrum PlaceFunction::table(const Table& table, const PatternPlace& place) const noexcept
 {
+    Channels channels = channels_of(place, to_pattern(place));
     double coordinates[DataTable::most_dimensions];
-    bool good =
-        table.coordinates.evaluate(channels_of(place, to_pattern(place)), {coordinates, table.coordinates.size()});
-    double found[3];
-    std::size_t count = table.data.size();
+    bool good = table.coordinates.evaluate(channels, {coordinates, table.coordinates.size()});
+    double* found = channels.data() + (value_channel - 1);
     if (table.picture != nullptr) {
         const Spectrum colour = table.picture->at(coordinates[0], coordinates[1]);
         found[0] = colour.r;
         found[1] = colour.g;
         found[2] = colour.b;
-        count = 3;
     }
     for (std::size_t i = 0; i < table.data.size(); ++i)
         found[i] = table.data[i]->at(coordinates);
     double values[3];
-    good = table.values.evaluate({found, count}, {values, table.values.size()}) && good;
+    good = table.values.evaluate(channels, {values, table.values.size()}) && good;
     return checked(values, table.values.size(), good);
 }
 
 Spectrum PlaceFunction::spectral(const Spectral& spectral, const PatternPlace& place) const noexcept
 {
-    const Channels here = channels_of(place, to_pattern(place));
-    std::array<double, place_channels + 1> channels{}; // the last one is the wavelength
-    std::copy(here.begin(), here.end(), channels.begin());
+    Channels channels = channels_of(place, to_pattern(place));
     double coordinates[DataTable::most_dimensions];
-    bool good = spectral.coordinates.evaluate(here, {coordinates, spectral.coordinates.size()});
+    bool good = spectral.coordinates.evaluate(channels, {coordinates, spectral.coordinates.size()});
     const Spectrum colour = spectral_colour([&](double nm) {
         if (!(nm >= spectral.least_nm && nm <= spectral.most_nm))
             return 0.0;
         double value = 0;
-        channels.back() = nm;
+        channels[wavelength_channel - 1] = nm;
         if (spectral.data != nullptr) {
             coordinates[spectral.coordinates.size()] = nm;
-            const double found = spectral.data->at(coordinates);
-            good = spectral.value.evaluate({&found, 1}, {&value, 1}) && good;
-        } else {
-            good = spectral.value.evaluate(channels, {&value, 1}) && good;
+            channels[value_channel - 1] = spectral.data->at(coordinates);
         }
+        good = spectral.value.evaluate(channels, {&value, 1}) && good;
         return value;
     });
     const double values[] = {colour.r, colour.g, colour.b};

@@ -35,6 +35,21 @@ void add_without(CLI::App& command, EffortWords& words)
         ->type_name("NAMES");
 }
 
+/// What pictures and grids have in common.
+template <class Settings>
+Settings settings_of(const EffortWords& words)
+{
+    Settings settings;
+    settings.samples = words.samples;
+    settings.accuracy = words.accuracy;
+    settings.seed = words.seed;
+    settings.threads = words.threads;
+    settings.unbiased = words.unbiased;
+    settings.techniques = words.techniques;
+    settings.ambient_file.file = words.ambient_file;
+    return settings;
+}
+
 } // namespace
 
 double accuracy_of_quality(const std::string& name, double usual)
@@ -171,30 +186,15 @@ void check_effort(const EffortWords& words)
 
 PictureSettings picture_settings(const EffortWords& words, int width, int height)
 {
-    PictureSettings settings;
+    auto settings = settings_of<PictureSettings>(words);
     settings.width = width;
     settings.height = height;
-    settings.samples = words.samples;
-    settings.accuracy = words.accuracy;
-    settings.seed = words.seed;
-    settings.threads = words.threads;
-    settings.unbiased = words.unbiased;
-    settings.techniques = words.techniques;
-    settings.ambient_file.file = words.ambient_file;
     return settings;
 }
 
 GridSettings grid_settings(const EffortWords& words)
 {
-    GridSettings settings;
-    settings.samples = words.samples;
-    settings.accuracy = words.accuracy;
-    settings.seed = words.seed;
-    settings.threads = words.threads;
-    settings.unbiased = words.unbiased;
-    settings.techniques = words.techniques;
-    settings.ambient_file.file = words.ambient_file;
-    return settings;
+    return settings_of<GridSettings>(words);
 }
 
 std::string replay_words(double accuracy, int samples, std::uint64_t seed)

@@ -103,22 +103,9 @@ void write_files(const MapJob& job, const GridResult& result, double cpu_seconds
         else
             write_false_colour(job, result, file);
     }
-    RunRecord record;
-    record.seconds = result.seconds;
-    record.cpu_seconds = cpu_seconds;
-    record.predicted = job.predicted;
-    record.threads = job.settings.threads;
-    record.samples = result.samples;
-    record.work = result.work;
-    record.wanted_accuracy = job.settings.accuracy;
-    record.median_relative_error = result.median_relative_error;
-    record.bias = result.bias;
-    record.wanted_time_s = job.time_s;
-    record.replay = replay_words(job.settings.accuracy, result.samples, job.settings.seed);
+    RunRecord record = record_of(job, result, cpu_seconds);
     record.more = map_header(job, result);
     record.more["mean_error_lx"] = shortest(result.mean_standard_error.value);
-    record.report = job.report;
-    record.report.add(result.report);
     write_run_record(job.files.front(), record);
 }
 

@@ -16,6 +16,17 @@ void add_import_words(CLI::App& command, ImportWords& words)
         .add_option("--unit", words.unit, "unit of the drawing, when the file is silent or wrong: mm, m, in, ft, ...")
         ->type_name("UNIT");
     command.add_option("--up", words.up, "axis that points up in the file: y or z")->check(CLI::IsMember({"y", "z"}));
+    command.add_flag("--keep-triangles", words.keep_triangles, "leave the triangles of a flat face as they are");
+    command
+        .add_option("--crease-angle", words.crease_angle_deg,
+                    "shade meshes without normals as round across edges bent less (degrees)")
+        ->check(CLI::Range(0.0, 180.0));
+    command
+        .add_option("--extrude", words.extrude,
+                    "raise the outlines of layers of a plan (DXF) to walls: A-WALL=2.8, *WALL*=2800mm; repeatable")
+        ->type_name("LAYER=HEIGHT")
+        ->expected(1)
+        ->take_all();
 }
 
 ImportOptions import_options(const ImportWords& words)
@@ -24,6 +35,10 @@ ImportOptions import_options(const ImportWords& words)
     if (!words.unit.empty())
         options.metres_per_unit = parse_unit(words.unit).value;
     options.up = words.up;
+    options.keep_triangles = words.keep_triangles;
+    options.crease_angle_deg = words.crease_angle_deg;
+    for (const std::string& rule : words.extrude)
+        options.raised.push_back(parse_raised_layer(rule, "--extrude"));
     return options;
 }
 

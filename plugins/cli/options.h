@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -17,9 +18,12 @@ namespace lightwell {
 struct SceneWords;
 struct SkyWords;
 
-/// How to read a CAD file: `--unit`, `--up`.
+/// How to read a CAD file: `--unit`, `--up`, `--keep-triangles`, `--crease-angle`, `--extrude`.
 struct ImportWords {
     std::string unit, up;
+    bool keep_triangles = false;
+    std::optional<double> crease_angle_deg;
+    std::vector<std::string> extrude; ///< LAYER=HEIGHT
 };
 void add_import_words(CLI::App& command, ImportWords& words);
 ImportOptions import_options(const ImportWords& words);

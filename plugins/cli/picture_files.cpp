@@ -128,21 +128,8 @@ void write_companions(const PictureResult& result, const PictureJob& job, double
         write_png(tone_mapped(result.picture), std::filesystem::path(job.file).replace_extension(".png"));
     if (job.hdr)
         write_rgbe(for_itself(result.picture, job.view), std::filesystem::path(job.file).replace_extension(".hdr"));
-    RunRecord record;
-    record.seconds = result.seconds;
-    record.cpu_seconds = cpu_seconds;
-    record.predicted = job.predicted;
-    record.threads = job.settings.threads;
-    record.samples = result.samples;
-    record.work = result.work;
-    record.wanted_accuracy = job.settings.accuracy;
-    record.median_relative_error = result.median_relative_error;
-    record.bias = result.bias;
-    record.wanted_time_s = job.time_s;
-    record.replay = replay_words(job.settings.accuracy, result.samples, job.settings.seed);
+    RunRecord record = record_of(job, result, cpu_seconds);
     record.more = result.picture.header;
-    record.report = job.report;
-    record.report.add(result.report);
     write_run_record(job.file, record);
 }
 

@@ -143,9 +143,13 @@ std::string plan_json(const Plan& plan, const std::optional<Forecast>& forecast,
         json["not_modelled"].push_back({{"what", omission.what}, {"effect", omission.effect}});
     if (forecast) {
         const Prediction& p = forecast->prediction;
-        json["expected"] = {{"of", forecast->of},           {"wanted_accuracy", forecast->wanted_accuracy},
-                            {"cpu_seconds", p.cpu_seconds}, {"median_relative_error", p.error},
-                            {"samples", p.samples},         {"pilot_cpu_seconds", p.pilot_cpu_seconds}};
+        json["expected"] = {{"of", forecast->of},
+                            {"wanted_accuracy", forecast->wanted_accuracy},
+                            {"cpu_seconds", p.cpu_seconds},
+                            {"median_relative_error", p.error},
+                            {"rays", std::round(p.rays)},
+                            {"samples", p.samples},
+                            {"pilot_cpu_seconds", p.pilot.seconds}};
     }
     if (offer)
         json["within_time"] = {{"cpu_seconds", offer->cpu_seconds}, {"accuracy", offer->accuracy}};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <thread>
 #include <unistd.h>
@@ -91,6 +92,11 @@ void write_run_record(const std::filesystem::path& result, const RunRecord& reco
                      {"ambient_records", record.work.ambient_records},
                      {"sites_from_file", record.work.sites_kept},
                      {"records_from_file", record.work.records_kept}};
+    json["rays"] = {{"ambient", record.work.ambient_rays.total()},
+                    {"fixed", record.work.fixed_rays.total()},
+                    {"values", record.work.value_rays.total()},
+                    {"all", record.work.rays().total()},
+                    {"shadow", record.work.rays().shadow}};
     json["wanted_accuracy"] = record.wanted_accuracy;
     if (record.wanted_time_s > 0)
         json["wanted_time_s"] = record.wanted_time_s;
@@ -103,9 +109,10 @@ void write_run_record(const std::filesystem::path& result, const RunRecord& reco
                         {"points", record.bias.points}};
     if (record.predicted)
         json["predicted"] = {{"cpu_seconds", record.predicted->cpu_seconds},
+                             {"rays", std::round(record.predicted->rays)},
                              {"median_relative_error", record.predicted->error},
                              {"samples", record.predicted->samples},
-                             {"pilot_cpu_seconds", record.predicted->pilot_cpu_seconds}};
+                             {"pilot_cpu_seconds", record.predicted->pilot.seconds}};
     for (const auto& [name, value] : record.more)
         json["settings"][name] = to_utf8(value);
     json["notes"] = nlohmann::ordered_json::array();

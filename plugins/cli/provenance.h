@@ -3,6 +3,7 @@
 #include "engine/base/report.h"
 #include "engine/control/predict.h"
 #include "engine/simulate/simulate.h"
+#include "plugins/cli/options.h"
 
 #include <filesystem>
 #include <map>
@@ -33,6 +34,27 @@ struct RunRecord {
     std::optional<Prediction> predicted;
     Report report;
 };
+/// All but `more`.
+/// @param job, result  of a picture or a map
+template <class Job, class Result>
+RunRecord record_of(const Job& job, const Result& result, double cpu_seconds)
+{
+    RunRecord record;
+    record.seconds = result.seconds;
+    record.cpu_seconds = cpu_seconds;
+    record.predicted = job.predicted;
+    record.threads = job.settings.threads;
+    record.samples = result.samples;
+    record.work = result.work;
+    record.wanted_accuracy = job.settings.accuracy;
+    record.median_relative_error = result.median_relative_error;
+    record.bias = result.bias;
+    record.wanted_time_s = job.time_s;
+    record.replay = replay_words(job.settings.accuracy, result.samples, job.settings.seed);
+    record.report = job.report;
+    record.report.add(result.report);
+    return record;
+}
 /// `room.exr` -> `room.run.json`.
 std::filesystem::path run_record_name(const std::filesystem::path& result);
 void write_run_record(const std::filesystem::path& result, const RunRecord& record);

@@ -59,6 +59,7 @@ SceneInputs inputs_of(const Project& project)
     if (!project.inputs.unit.empty())
         inputs.import.metres_per_unit = parse_unit(project.inputs.unit).value;
     inputs.import.up = project.inputs.up;
+    inputs.import.raised = project.inputs.raised;
     if (project.sky && project.place)
         inputs.sky = describe_sky(*project.sky, *project.place, project.north_deg);
     return inputs;

@@ -41,8 +41,11 @@ TEST(Furnace, MaterialsReflectNoMoreThanTheyReceiveAndWhiteReflectsItAll)
     for (const Case& c :
          {Case{"white diffuse", Plastic{white, 0, 0}, 1000}, Case{"grey", Plastic{white * 0.5, 0, 0}, 500},
           Case{"glossy", Plastic{white, 0.1, 0.2}, -1000}, Case{"metal", Metal{white, 1, 0.3}, -1000},
-          Case{"mirror", Mirror{white * 0.9}, 900}, Case{"glass ball", Dielectric{white, 1.5, 0}, 1000},
-          Case{"trans", Trans{white, 0.05, 0.1, 0.5, 0.3}, -1000}}) {
+          Case{"polished metal", Metal{white, 1, 0}, -1000}, Case{"rough plastic", Plastic{white, 0.05, 0.3}, -1000},
+          Case{"smooth plastic", Plastic{white, 0.05, 0}, -1000}, Case{"mirror", Mirror{white * 0.9}, 900},
+          Case{"glass ball", Dielectric{white, 1.5, 0}, 1000}, Case{"thin glass", Glass{white, 1.52}, 1000},
+          Case{"trans", Trans{white, 0.05, 0.1, 0.5, 0.3}, -1000},
+          Case{"trans without loss", Trans{white, 0, 0, 0.6, 0}, 1000}}) {
         SCOPED_TRACE(c.name);
         Scene scene;
         const ModifierId sky = scene.add_material("sky", Glow{Spectrum::grey(1000 / lumens_per_watt), 0});
@@ -51,7 +54,7 @@ TEST(Furnace, MaterialsReflectNoMoreThanTheyReceiveAndWhiteReflectsItAll)
         const Simulation simulation(std::move(scene));
         PictureSettings settings;
         settings.width = settings.height = 1;
-        settings.samples = 1 << 14;
+        settings.samples = 1 << 15;
         View view;
         view.position = {0.3, -4, 0.2};
         view.horizontal = view.vertical = 0.01;

@@ -143,6 +143,20 @@ def ball_row(yardstick, folder):
                 REFERENCES / "g_line.csv", [(0.01, 1.6)], 1.25)
 
 
+CURVE_STEPS = 20  # between two points of the line: then they are so many that they share records
+
+
+def curve_row(yardstick, folder):
+    """The same line as a curve through interpolated records (the paper's Figure 3), compared at the points of the line."""
+    import g_sphere_room
+    g_sphere_room.gen(str(folder))
+    line = np.array(g_sphere_room.line())
+    between = [a + (b - a) * step / CURVE_STEPS for a, b in zip(line, line[1:]) for step in range(CURVE_STEPS)]
+    points = [tuple(point) for point in [*between, line[-1]]]
+    return _row("g_curve", f"curve beside the ball, {len(points)} points", folder / "ball.rad", points,
+                REFERENCES / "g_line.csv", [(0.01, 1.6)], 1.25)
+
+
 BUILDERS = {
     "a80": lambda y, f: sphere_row(y, f, 0.8, [(0.001, 0.2)]),
     "a95": lambda y, f: sphere_row(y, f, 0.95, [(0.001, 0.2)]),
@@ -153,6 +167,7 @@ BUILDERS = {
     "d": lambda y, f: theatre_row(y, f, points_behind=True),
     "d_point": lambda y, f: theatre_row(y, f, points_behind=False),
     "g": ball_row,
+    "g_curve": curve_row,
 }
 
 

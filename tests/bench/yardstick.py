@@ -4,7 +4,7 @@
     yardstick.py [ROW ...] --yardstick FOLDER [--ladder samples|accuracy|quality|time] [--also "--without cache"]
                  [--seeds 5] [--without-radiance]
 
-Rows: a80 a95 a99 b c c_blended d g (all without an argument). FOLDER has the scenes' generators and references;
+Rows: a80 a95 a99 b c c_blended d d_point g g_curve (all without an argument). FOLDER has the scenes' generators and references;
 $LIGHTWELL_YARDSTICK stands for it. Radiance's oconv and rtrace are looked for on the PATH. Each setting runs with every
 seed; printed are medians: CPU seconds of one thread, apart the share that loading takes (one sensor, fewest samples),
 errors relative to the reference with its noise subtracted in quadrature from the RMS, and when each goal was reached.

@@ -33,13 +33,20 @@ class Quantity:
 
     def add(self, value, standard_error, bias_estimate=0.0):
         self.values.append(value)
-        self.half_widths.append(half_width(standard_error) + abs(bias_estimate))
+        self.half_widths.append(half_width(standard_error))
         self.bias_estimates.append(bias_estimate)
 
     def hits(self):
-        """Runs whose interval holds the truth; that one is known to `truth_error` and not better."""
-        return sum(abs(value - self.truth) <= width + NORMAL_95 * self.truth_error
-                   for value, width in zip(self.values, self.half_widths))
+        """Runs whose statistical interval holds the truth; that one is known to `truth_error` and not better."""
+        return self._hits(0.0)
+
+    def hits_with_bias(self):
+        """The same for intervals that are widened by the stated bias."""
+        return self._hits(1.0)
+
+    def _hits(self, bias_share):
+        return sum(abs(value - self.truth) <= width + bias_share * abs(bias) + NORMAL_95 * self.truth_error
+                   for value, width, bias in zip(self.values, self.half_widths, self.bias_estimates))
 
     def spread(self):
         return statistics.stdev(self.values)
@@ -55,7 +62,8 @@ class Quantity:
 
     def summary(self):
         bias, bias_error = self.bias()
-        return {"quantity": self.name, "runs": len(self.values), "hits": self.hits(), "truth": self.truth,
+        return {"quantity": self.name, "runs": len(self.values), "hits": self.hits(),
+                "hits_with_bias": self.hits_with_bias(), "truth": self.truth,
                 "truth_error": self.truth_error, "relative_spread": self.spread() / self.truth,
                 "width_ratio": self.width_ratio(), "relative_bias": bias / self.truth,
                 "relative_bias_error": bias_error / self.truth,

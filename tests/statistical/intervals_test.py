@@ -47,6 +47,12 @@ class Intervals(unittest.TestCase):
         bias, error = quantity.bias()
         self.assertLess(abs(bias - 1.06), 5 * error)
 
+    def test_a_stated_bias_widens_only_the_interval_that_is_said_to_hold_it(self):
+        quantity = Quantity("off by 3 with an error of 1", TRUTH)
+        quantity.add(TRUTH + 3, 1.0, 1.0)
+        quantity.add(TRUTH + 3, 1.0, 0.1)
+        self.assertEqual((quantity.hits(), quantity.hits_with_bias()), (0, 1))
+
     def test_intervals_that_are_too_wide_are_found(self):
         self.assertGreater(runs_of(narrow=2.0).width_ratio(), 1.5)
 

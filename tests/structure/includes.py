@@ -28,7 +28,8 @@ LIGHT_ROWS = [
 ]
 IMPORT_ROWS = [
     {"importers"},
-    {"importers/dxf", "importers/obj", "importers/gltf", "importers/radiance", "importers/assimp", "importers/export"},
+    {"importers/dxf", "importers/obj", "importers/gltf", "importers/radiance", "importers/assimp",
+     "importers/surfaces", "importers/export"},
     {"importers/formats"},
     {"importers/project"},
 ]
@@ -60,7 +61,7 @@ PACKAGES = {
 # Packages of headers alone, without a target to name in HIDES: the folder that may include them.
 HEADERS_ONLY = {"tinygltf": "gltf"}
 SYSTEM = re.compile(
-    r"^([a-z_0-9]+|sys/[a-z]+\.h|(unistd|fcntl|iconv|signal|poll|dlfcn|spawn|setjmp|immintrin|xmmintrin|pmmintrin|emmintrin|"
+    r"^([a-z_0-9]+|sys/[a-z]+\.h|(malloc|unistd|fcntl|iconv|signal|poll|dlfcn|spawn|setjmp|immintrin|xmmintrin|pmmintrin|emmintrin|"
     r"stdio|stdlib|stdint|string|time|errno)\.h)$")
 
 

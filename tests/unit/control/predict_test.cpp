@@ -3,18 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lightwell {
 namespace {
 
-/// A run of a made-up simulation: ambient light costs 0.02 / accuracy seconds, a sample 1e-6 s, and 0.04 / accuracy^2
-/// samples bring the error to 0.9 of the accuracy.
+/// A run of a made-up simulation: ambient light takes 1e4 / accuracy rays of 2e-6 s, choosing and checking 2e5 rays and
+/// half a second, a sample two rays and 1e-6 s; 0.04 / accuracy^2 samples bring the error to 0.9 of the accuracy.
 PilotRun made_up(double accuracy)
 {
-    return {accuracy, 100, 0.04 / (accuracy * accuracy), 0.9 * accuracy, 0.02 / accuracy, 0.5, 1e-6};
+    const double samples = 0.04 / (accuracy * accuracy), rays = 1e4 / accuracy, taken = 100 * samples;
+    return {accuracy, 100, samples, 0.9 * accuracy, {rays, 2e-6 * rays}, {2e5, 0.5}, {2 * taken, 1e-6 * taken}};
 }
 
 TEST(CostModel, ContinuesTwoRunsByTheirOwnLaws)
@@ -24,6 +23,7 @@ TEST(CostModel, ContinuesTwoRunsByTheirOwnLaws)
     EXPECT_NEAR(model.error_at(0.01), 0.009, 1e-12);
     EXPECT_NEAR(model.ambient_s(0.01), 2, 1e-9);
     EXPECT_NEAR(model.seconds(0.01, 1000), 2 + 0.5 + 1e-6 * 1000 * 400, 1e-9);
+    EXPECT_NEAR(model.rays(0.01, 1000), 1e6 + 2e5 + 2.0 * 1000 * 400, 1e-3);
 }
 
 TEST(CostModel, OfOneRunAssumesThatWorkGrowsByTheInverseSquare)
@@ -38,11 +38,11 @@ TEST(CostModel, NoiseInThePilotDoesNotRunAway)
     PilotRun odd = made_up(0.02);
     odd.samples = 10; // fewer than the coarser run took
     odd.error = 0.5;  // and worse
-    odd.ambient_s = 1e6;
+    odd.ambient = {1e6, 1};
     const CostModel model = fit({made_up(0.04), odd});
     EXPECT_LE(model.samples_at(0.01), 10 * 8);
     EXPECT_LE(model.error_at(0.01), 0.5);
-    EXPECT_LE(model.ambient_s(0.01), 8e6);
+    EXPECT_LE(model.ambient_rays(0.01), 8e6);
     for (const double accuracy : {1e-4, 0.01, 0.5})
         EXPECT_TRUE(std::isfinite(model.seconds(accuracy, 1e9)));
 }
@@ -108,32 +108,17 @@ SensorGrid line_of_sensors(int count)
     return grid;
 }
 
-/// Predicted over reached, for seconds and for errors.
-struct Ratios {
-    double seconds = 0, error = 0;
-};
-
-/// The median of three predictions, each with the run that it predicts: a machine at work on other things disturbs
-/// one of them, and the time that a pilot run takes decides how far the next one goes.
-template <class Measure>
-Ratios median_of_three(const Measure& measure)
+/// Rays, not seconds: the same for each run of the test, on any machine.
+template <class Result>
+void expect_within_a_factor_of_two(const Prediction& expected, const Result& result)
 {
-    std::array<double, 3> seconds, errors;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Ratios ratios = measure();
-        seconds[i] = ratios.seconds;
-        errors[i] = ratios.error;
-    }
-    std::sort(seconds.begin(), seconds.end());
-    std::sort(errors.begin(), errors.end());
-    return {seconds[1], errors[1]};
-}
-
-void expect_within_a_factor_of_two(const Ratios& ratios)
-{
-    for (const double ratio : {ratios.seconds, ratios.error}) {
-        EXPECT_GT(ratio, 0.5);
-        EXPECT_LT(ratio, 2);
+    const double rays = expected.rays / static_cast<double>(result.work.rays().total());
+    const double error = expected.error / result.median_relative_error;
+    for (const double ratio : {rays, error}) {
+        EXPECT_GT(ratio, 0.5) << "rays " << rays << ", error " << error << ", samples " << expected.samples << " for "
+                              << result.samples;
+        EXPECT_LT(ratio, 2) << "rays " << rays << ", error " << error << ", samples " << expected.samples << " for "
+                            << result.samples;
     }
 }
 
@@ -143,14 +128,35 @@ TEST(Predict, CostAndErrorOfAMapAreRightWithinAFactorOfTwo)
     const SensorGrid grid = line_of_sensors(200);
     GridSettings settings;
     settings.accuracy = 0.005;
+    const Prediction expected = predict(simulation, grid, settings, 5e5);
+    expect_within_a_factor_of_two(expected, simulation.illuminance(grid, settings));
+}
+
+TEST(Predict, IsTheSameEachTimeButForTheSeconds)
+{
+    const Simulation simulation(lamp_room());
+    GridSettings settings;
+    settings.accuracy = 0.03;
     settings.threads = 1;
-    expect_within_a_factor_of_two(median_of_three([&] {
-        const Prediction expected = predict(simulation, grid, settings, 0.5);
-        const double start = process_cpu_seconds();
-        const GridResult result = simulation.illuminance(grid, settings);
-        return Ratios{expected.cpu_seconds / (process_cpu_seconds() - start),
-                      expected.error / result.median_relative_error};
-    }));
+    const Prediction one = predict(simulation, line_of_sensors(100), settings, 1e5);
+    settings.threads = 2;
+    const Prediction two = predict(simulation, line_of_sensors(100), settings, 1e5);
+    EXPECT_EQ(one.rays, two.rays);
+    EXPECT_EQ(one.pilot.rays, two.pilot.rays);
+    EXPECT_EQ(one.error, two.error);
+    EXPECT_EQ(one.samples, two.samples);
+    EXPECT_GT(one.cpu_seconds, 0);
+    EXPECT_GT(two.cpu_seconds, 0);
+}
+
+TEST(Predict, CostOfAMapWhoseSensorsShareAmbientLightIsRightWithinAFactorOfTwo)
+{
+    const Simulation simulation(lamp_room());
+    const SensorGrid grid = line_of_sensors(12000);
+    GridSettings settings;
+    settings.accuracy = 0.1;
+    const Prediction expected = predict(simulation, grid, settings, 1e5);
+    expect_within_a_factor_of_two(expected, simulation.illuminance(grid, settings));
 }
 
 TEST(Predict, CostOfAPictureIsRightWithinAFactorOfTwoAndARegionCostsLess)
@@ -162,17 +168,10 @@ TEST(Predict, CostOfAPictureIsRightWithinAFactorOfTwoAndARegionCostsLess)
     PictureSettings settings;
     settings.width = settings.height = 288;
     settings.accuracy = 0.1;
-    settings.threads = 1;
-    expect_within_a_factor_of_two(median_of_three([&] {
-        const Prediction expected = predict(simulation, view, settings, 0.2);
-        const double start = process_cpu_seconds();
-        const PictureResult result = simulation.render(view, settings);
-        return Ratios{expected.cpu_seconds / (process_cpu_seconds() - start),
-                      expected.error / result.median_relative_error};
-    }));
-    const double whole = predict(simulation, view, settings, 0.2).cpu_seconds;
+    const Prediction whole = predict(simulation, view, settings, 2e5);
+    expect_within_a_factor_of_two(whole, simulation.render(view, settings));
     settings.region = {100, 100, 60, 60};
-    EXPECT_LT(predict(simulation, view, settings, 0.2).cpu_seconds, 0.8 * whole);
+    EXPECT_LT(predict(simulation, view, settings, 2e5).rays, 0.8 * whole.rays);
 }
 
 TEST(Predict, TheSamplesThatWereGivenAreTaken)
@@ -181,7 +180,7 @@ TEST(Predict, TheSamplesThatWereGivenAreTaken)
     GridSettings settings;
     settings.samples = 512;
     settings.threads = 1;
-    const Prediction expected = predict(simulation, line_of_sensors(100), settings, 0.2);
+    const Prediction expected = predict(simulation, line_of_sensors(100), settings, 2e5);
     EXPECT_EQ(expected.samples, 512);
     const GridResult result = simulation.illuminance(line_of_sensors(100), settings);
     EXPECT_GT(expected.error, 0.5 * result.median_relative_error);

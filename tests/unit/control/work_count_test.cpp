@@ -10,11 +10,12 @@ namespace {
 Prediction made_up()
 {
     Prediction prediction;
-    prediction.model.ambient_s = {0.04, 0.5, -1};
+    prediction.model.ambient_rays = {0.04, 5e5, -1};
+    prediction.model.ambient_s_per_ray = 1e-6;
     prediction.model.samples = {0.04, 25, -2};
     prediction.model.error = {0.04, 0.04, 1};
-    prediction.model.per_sample_s = 1e-6;
-    prediction.model.fixed_s = 0.25;
+    prediction.model.sample = {2, 1e-6};
+    prediction.model.fixed = {2e5, 0.25};
     return prediction;
 }
 

@@ -103,6 +103,13 @@ Box exact_bounds(const Imported& imported)
             const Polygon& polygon = part.polygons[surface.index];
             for (std::uint32_t i = 0; i < polygon.count; ++i)
                 box.extend(map.point(part.points[polygon.first + i]));
+        } else if (surface.shape == Shape::sphere) {
+            const Sphere& sphere = part.spheres[surface.index];
+            const double reach = scale * sphere.radius;
+            box.extend(map.point(sphere.centre) + Vec3{reach, reach, reach});
+            box.extend(map.point(sphere.centre) - Vec3{reach, reach, reach});
+        } else if (surface.shape == Shape::source) {
+            return; // nowhere
         } else if (surface.shape == Shape::ring) {
             const Ring& ring = part.rings[surface.index];
             extend_by_disc(box, map.point(ring.centre), transform_normal(map, ring.normal), scale * ring.outer_radius);

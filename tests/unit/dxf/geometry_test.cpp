@@ -168,5 +168,38 @@ TEST(DxfThickSurfaces, FaceOutwards)
     EXPECT_NEAR(volume(imported_text(drawing("", frame))), 20 * 0.2, 1e-12);
 }
 
+/// A cube from -1 to 1 as MESH with two subdivision levels.
+std::string smooth_cube(const std::string& crease)
+{
+    std::string text = "0 MESH 5 3A 8 M 100 AcDbSubdMesh 71 2 72 0 91 2 92 8 ";
+    for (int i = 0; i < 8; ++i)
+        text += "10 " + std::to_string(i & 1 ? 1 : -1) + " 20 " + std::to_string(i & 2 ? 1 : -1) + " 30 " +
+                std::to_string(i & 4 ? 1 : -1) + " ";
+    text += "93 30 ";
+    for (const char* corners : {"0 2 3 1", "4 5 7 6", "0 1 5 4", "1 3 7 5", "3 2 6 7", "2 0 4 6"})
+        text +=
+            "90 4 90 " + std::string{corners}.replace(1, 1, " 90 ").replace(6, 1, " 90 ").replace(11, 1, " 90 ") + " ";
+    text += "94 12 ";
+    for (const char* edge : {"0 1", "2 3", "4 5", "6 7", "0 2", "1 3", "4 6", "5 7", "0 4", "1 5", "2 6", "3 7"})
+        text += "90 " + std::string{edge}.replace(1, 1, " 90 ") + " ";
+    text += "95 12 ";
+    for (int i = 0; i < 12; ++i)
+        text += "140 " + crease + " ";
+    return text;
+}
+
+TEST(DxfMeshes, WithSubdivisionLevelsAreTheirLimitSurfaceAndKeepTheirCreases)
+{
+    // Catmull, Clark 1978: the middle of a face moves to (16 v + 4 e + f) / 36 with v = 1, e = 4 x 0.75, f = 4 x 5/9.
+    const Imported smooth = imported_text(drawing("", smooth_cube("0")));
+    const double middle = (16 + 12 + 20.0 / 9) / 36;
+    EXPECT_NEAR(bounds(smooth.scene).high.x, middle, 0.0005);
+    EXPECT_NEAR(bounds(smooth.scene).low.z, -middle, 0.0005);
+    EXPECT_EQ(layer_areas(smooth).at("M").surfaces, 1u);
+    EXPECT_TRUE(smooth.report.has(Finding::approximated));
+    const Imported sharp = imported_text(drawing("", smooth_cube("-1"))); // never rounded: the cube itself
+    EXPECT_NEAR(layer_areas(sharp).at("M").area_m2, 24, 1e-9);
+}
+
 } // namespace
 } // namespace lightwell::test

@@ -34,11 +34,19 @@ void expect_equal_areas(const Imported& wanted, const Imported& found, double to
     }
 }
 
+/// Face for face as in the file: joined triangles would be fewer entities when written again.
+Imported as_written(const std::filesystem::path& file)
+{
+    ImportOptions options;
+    options.keep_triangles = true;
+    return import_file(file, options);
+}
+
 /// Exports to each format and reads back: layers keep their areas.
 void check_file(const std::filesystem::path& file, bool with_meshes)
 {
     SCOPED_TRACE(file.string());
-    const Imported model = import_file(file);
+    const Imported model = as_written(file);
     if (model.scene.root.surfaces.empty())
         return; // lines only
     const std::filesystem::path folder =
@@ -55,16 +63,18 @@ void check_file(const std::filesystem::path& file, bool with_meshes)
         SCOPED_TRACE(name);
         // Discs and columns become facets with a sagitta of ten micrometres.
         export_file(model, folder / name, {1e-5}, report);
-        const Imported again = import_file(folder / name);
+        const Imported again = as_written(folder / name);
         const bool round = report.has(Finding::approximated);
         expect_equal_areas(model, again, round ? 1e-4 : tolerance);
         Report second;
-        export_file(again, folder / name, {1e-5}, second);
-        const Imported third = import_file(folder / name);
+        const std::filesystem::path other = folder / ("second_" + std::string(name)); // a file replaced is flushed
+        export_file(again, other, {1e-5}, second);
+        const Imported third = as_written(other);
         expect_equal_areas(again, third, tolerance);
         // Instances that a reader of GLB tells apart may share a mesh the second time.
-        if (std::string(name) != "m.glb")
+        if (std::string(name) != "m.glb") {
             EXPECT_EQ(third.ledger.made_count(), again.ledger.made_count());
+        }
     }
     std::filesystem::remove_all(folder);
 }

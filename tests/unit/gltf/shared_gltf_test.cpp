@@ -1,5 +1,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "tests/unit/import_measures/deviations.h"
 #include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
@@ -36,63 +37,85 @@ std::string our_name(const std::string& name)
     return name[0] == '#' ? std::string("material").append(name.substr(1)) : name;
 }
 
-void expect_truth(const Imported& imported, const Json& truth)
+bool bounds_agree(const Box& bounds, const Json& truth)
 {
-    const Measured found = measure(imported);
-    const std::size_t dropped = noted(imported.report, "triangle without area") + skipped_for(imported, "zero area");
-    const Json& scene = truth["default_scene"];
-    if (dropped == 0) {
-        EXPECT_EQ(found.total.triangles, scene["triangles"].get<std::size_t>());
-        for (const auto& [name, count] : scene["triangles_per_material"].items()) {
-            const auto share = found.materials.find(our_name(name));
-            ASSERT_NE(share, found.materials.end()) << name;
-            EXPECT_EQ(share->second.triangles, count.get<std::size_t>()) << name;
-        }
-    }
-    // The truth's box holds points and lines too, and corners of triangles without area.
-    const bool all_taken =
-        imported.ledger.read_count() == imported.ledger.made_count() + skipped_of_type(imported, "light");
-    if (!all_taken || dropped > 0 || !scene.value("bbox_exact", false) || scene["world_bbox"].is_null() ||
-        found.bounds.empty())
-        return;
+    if (truth.is_null() || bounds.empty())
+        return truth.is_null() == bounds.empty();
     for (int axis = 0; axis < 3; ++axis) { // given with six digits
         const auto i = static_cast<std::size_t>(axis);
-        const double low = scene["world_bbox"]["min"][i], high = scene["world_bbox"]["max"][i];
+        const double low = truth["min"][i], high = truth["max"][i];
         const double tolerance = 2e-5 * std::fmax(1e-2, std::fmax(std::fabs(low), std::fabs(high)));
-        EXPECT_NEAR(found.bounds.low[axis], low, tolerance);
-        EXPECT_NEAR(found.bounds.high[axis], high, tolerance);
+        if (std::fabs(bounds.low[axis] - low) > tolerance || std::fabs(bounds.high[axis] - high) > tolerance)
+            return false;
     }
+    return true;
 }
+
+/// What of the truth of the shown scene is not found again.
+std::set<std::string> differences(const Imported& imported, const Json& truth)
+{
+    std::set<std::string> items;
+    const Measured found = measure(imported);
+    if (skipped_for(imported, "damaged") > 0)
+        items.insert("damaged parts left out");
+    if (noted(imported.report, "triangle without area") + skipped_for(imported, "zero area") > 0)
+        items.insert("triangles without area left out");
+    if (!truth.contains("default_scene"))
+        return items;
+    const Json& scene = truth["default_scene"];
+    if (found.total.triangles != scene["triangles"].get<std::size_t>())
+        items.insert("triangles");
+    std::map<std::string, std::size_t> expected, materials;
+    for (const auto& [name, count] : scene.at("triangles_per_material").items())
+        if (count.get<std::size_t>() > 0)
+            expected[our_name(name)] = count;
+    for (const auto& [name, share] : found.materials)
+        if (share.triangles > 0)
+            materials[name] = share.triangles;
+    if (materials != expected)
+        items.insert("triangles by material");
+    if (scene.value("bbox_exact", false) && !bounds_agree(found.bounds, scene.value("world_bbox", Json())))
+        items.insert("bounds");
+    return items;
+}
+
+const char* const points_and_lines = "the truth's box holds points and lines, which have no area";
+const char* const without_area = "five triangles of the file have no area and are dropped with a note";
+
+const std::vector<Deviation> meant_to_differ = {
+    {"blender-io/01_vertex_count_32bit/01_vertex_count_32bit.gltf", "refused", "its companion is not among the files"},
+    {"assimp/glTF/BoxTextured-glTF-Embedded/BoxTextured.gltf", "refused", "glTF 1.0"},
+    {"blender-io/22_vertex_color/22_vertex_color.gltf", "bounds", points_and_lines},
+    {"primitive-modes/Mesh_PrimitiveMode_00.gltf", "bounds", points_and_lines},
+    {"primitive-modes/Mesh_PrimitiveMode_02.gltf", "bounds", points_and_lines},
+    {"primitive-modes/Mesh_PrimitiveMode_08.gltf", "bounds", points_and_lines},
+    {"primitive-modes/Mesh_PrimitiveMode_10.gltf", "bounds", points_and_lines},
+    {"interiors/hall.glb", "triangles", without_area},
+    {"interiors/hall.glb", "triangles by material", without_area},
+    {"interiors/hall.glb", "triangles without area left out", without_area},
+    {"magnum/mesh-multiple-primitives.gltf", "triangles without area left out", "its accessors have no elements"},
+};
 
 TEST(SharedGltf, EveryFileAgreesWithCountsAndBoundsFoundByIndependentScripts)
 {
     const Json entries = manifest("gltf");
     if (entries.is_null())
         GTEST_SKIP() << "the files from elsewhere are not at hand";
-    std::size_t read = 0;
+    Deviations deviations(meant_to_differ);
     for (const Json& entry : entries) {
         const std::string file = entry["file"];
         SCOPED_TRACE(file);
         const std::filesystem::path path = shared_fixtures() / "gltf" / file;
         EXPECT_TRUE(recognize_gltf(path));
-        const Json& truth = entry["ground_truth"];
-        const bool without_geometry =
-            entry.contains("companions_absent") && file.find("vertex_count_32bit") != std::string::npos;
-        if (without_geometry || truth.value("asset_version", "2.0") == "1.0") {
-            EXPECT_THROW(import_gltf(path, as_written()), InputError);
-            continue;
-        }
         try {
             const Imported imported = import_gltf(path, as_written());
             EXPECT_NO_THROW(validate(imported.scene));
-            if (truth.contains("default_scene"))
-                expect_truth(imported, truth);
-            ++read;
+            deviations.file(file, differences(imported, entry.at("ground_truth")));
         } catch (const InputError& error) {
-            ADD_FAILURE() << error.what();
+            deviations.file(file, {"refused"});
         }
     }
-    EXPECT_GE(read, 60u);
+    EXPECT_EQ(deviations.finish(std::cout), std::vector<std::string>{});
 }
 
 /// Zero errors in the Khronos report: must load; no file may crash, hang or give an invalid scene.

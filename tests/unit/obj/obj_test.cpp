@@ -1,5 +1,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "engine/base/random.h"
+#include "engine/base/text.h"
 #include "tests/unit/import_measures/measure.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +9,8 @@
 
 #include <cmath>
 #include <fstream>
+#include <set>
+#include <sstream>
 
 namespace lightwell {
 namespace {
@@ -118,7 +122,7 @@ TEST(Obj, MaterialsOfTheLibraryFollowTheStatedRule)
     const auto& bright = std::get<Plastic>(material_named(room, "Too bright"));
     EXPECT_NEAR(bright.specularity, 0.1, 1e-6);
     EXPECT_EQ(noted(room.report, "the highlight is weakened"), 1u);
-    EXPECT_EQ(noted(room.report, "texture `map_Kd` is not modelled yet"), 1u);
+    EXPECT_EQ(noted(room.report, "`map_Kd` names \"bright.png\", which is not there"), 1u);
     for (const auto& [name, material] : room.file_materials)
         EXPECT_NO_THROW(validate_material(material, name));
 }
@@ -204,7 +208,7 @@ TEST(Obj, AMissingLibraryIsSurvivedAndSaid)
     const Imported found = import_text("mtllib not there.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Brick Wall\nf 1 2 3\n");
     EXPECT_EQ(found.keys.at(0).material, "Brick Wall");
     EXPECT_EQ(found.keys.at(0).layer, "Brick Wall");
-    EXPECT_EQ(noted(found.report, "material library \"not\" is not there"), 1u);
+    EXPECT_EQ(noted(found.report, "material library \"not there.mtl\" is not there"), 1u);
     EXPECT_EQ(noted(found.report, "material \"Brick Wall\" is used but not described"), 1u);
 }
 
@@ -314,6 +318,145 @@ TEST(Obj, RoundedNormalsOfAFlatFaceDoNotMakeItSmooth)
                                        "vn 0 -0.707 0.707\nvn 0 -0.71 0.72\nf 1//1 2//1 3//1\nf 4//2 5//2 6//2\n");
     EXPECT_EQ(found.scene.root.polygons.size(), 1u);
     EXPECT_EQ(found.scene.root.meshes.size(), 1u);
+}
+
+TEST(Obj, FacesWithoutAMaterialTakeTheMeanColourOfTheirVertices)
+{
+    // The lower triangle is red (sRGB 1, 0, 0); the quad above is half 0.5 and half black, area 2 against 0.5.
+    const Imported found = import_text("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n"
+                                       "g wall\nv 0 0 1 0.5 0.5 0.5\nv 2 0 1 0 0 0\nv 2 1 1 0.5 0.5 0.5\n"
+                                       "v 0 1 1 1.0 0 0 0\nv 5 5 5\nf 4 5 6 7\nusemtl Named\nf 4 5 6\n");
+    ASSERT_EQ(found.file_materials.size(), 3u);
+    const auto colour_of = [&](std::size_t key) {
+        for (const auto& [name, material] : found.file_materials)
+            if (name == found.keys.at(key).material)
+                return to_rec709(std::get<Plastic>(material).colour);
+        return Spectrum{-1, -1, -1};
+    };
+    EXPECT_EQ(found.keys.at(0).material, "vertex colour #ff0000");
+    EXPECT_NEAR(colour_of(0).r, 1, 1e-2); // a primary of Rec.709 lies a little outside the engine's
+    const double half = std::pow((0.5 + 0.055) / 1.055, 2.4);
+    EXPECT_NEAR(colour_of(1).g, half / 2, 1e-6);
+    EXPECT_NEAR(colour_of(2).g, half * 2 / 3, 1e-6);
+    EXPECT_EQ(found.keys.at(2).material, "Named");
+    EXPECT_EQ(noted(found.report, "vertex colours, read as sRGB"), 3u);
+}
+
+TEST(Obj, VertexColoursAboveOneAreCountsTo255)
+{
+    const Imported found = import_text("v 0 0 0 255 255 255\nv 1 0 0 255 255 255\nv 0 1 0 255 255 255\nf 1 2 3\n");
+    EXPECT_NEAR(std::get<Plastic>(material_named(found, "vertex colour #ffffff")).colour.g, 1, 1e-9);
+}
+
+/// A column of so many sides between z = 0 and 1, in one smoothing group, without normals.
+std::string column(int sides, const std::string& smoothing)
+{
+    std::string text = "# up: z\n# unit: m\n" + smoothing;
+    for (int i = 0; i < sides; ++i) {
+        const std::string x = shortest(std::cos(2 * pi * i / sides)), y = shortest(std::sin(2 * pi * i / sides));
+        text += "v " + x + " " + y + " 0\nv " + x + " " + y + " 1\n";
+    }
+    for (int i = 0; i < sides; ++i) {
+        const int a = 2 * i + 1, b = 2 * ((i + 1) % sides) + 1;
+        for (const int corner : {a, b, b + 1, a + 1})
+            text += (corner == a ? "f " : " ") + std::to_string(corner);
+        text += "\n";
+    }
+    return text;
+}
+
+TEST(Obj, ASmoothingGroupWithoutNormalsBendsARoundColumn)
+{
+    const Imported found = import_text(column(12, "s 1\n"));
+    ASSERT_EQ(found.scene.root.meshes.size(), 1u);
+    const Mesh& mesh = *found.scene.root.meshes[0];
+    EXPECT_EQ(mesh.points.size(), 24u);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        EXPECT_NEAR(max_abs(mesh.normals[i] - Vec3{mesh.points[i].x, mesh.points[i].y, 0}), 0, 1e-9);
+    EXPECT_EQ(noted(found.report, "smoothing group without vertex normals"), 12u);
+    EXPECT_EQ(import_text(column(12, "s off\n")).scene.root.polygons.size(), 12u);
+    EXPECT_EQ(import_text(column(12, "")).scene.root.polygons.size(), 12u);
+}
+
+TEST(Obj, AnEdgeOfMoreThan66DegreesStaysAnEdgeInItsSmoothingGroup)
+{
+    EXPECT_EQ(import_text(column(4, "s 1\n")).scene.root.polygons.size(), 4u);
+    EXPECT_EQ(import_text(column(5, "s 1\n")).scene.root.polygons.size(), 5u); // 72 degrees
+    EXPECT_EQ(import_text(column(6, "s 1\n")).scene.root.meshes.size(), 1u);   // 60 degrees
+}
+
+TEST(Obj, FacesOfDifferentSmoothingGroupsDoNotBendEachOther)
+{
+    const std::string two = "# up: z\nv 0 0 0\nv 1 0 0\nv 1 1 0.3\nv 0 1 0.3\nv 0 2 0\nv 1 2 0\n";
+    const Imported apart = import_text(two + "s 1\nf 1 2 3 4\ns 2\nf 4 3 6 5\n");
+    EXPECT_EQ(apart.scene.root.polygons.size(), 2u);
+    const Imported together = import_text(two + "s 1\nf 1 2 3 4\nf 4 3 6 5\n");
+    ASSERT_EQ(together.scene.root.meshes.size(), 1u);
+    // The ridge between the roofs looks straight up: both slopes and both angles there are equal.
+    const Mesh& mesh = *together.scene.root.meshes[0];
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        if (mesh.points[i].z > 0.2) {
+            EXPECT_NEAR(max_abs(mesh.normals[i] - Vec3{0, 0, 1}), 0, 1e-12);
+        }
+}
+
+TEST(Obj, EachFreeFormStatementIsReportedWithItsKind)
+{
+    const Imported found = import_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ncstype rat bspline\ndeg 3 2\n"
+                                       "surf 0 1 0 1 1 2 3 \\\n 1 2 3\nparm u 0 1\nend\ncurv 0 1 1 2 3\nend\n"
+                                       "bzp 1 2 3\ncdc 1 2 3\nsurf 0 1 0 1 1 2 3\n");
+    EXPECT_EQ(skipped_of_type(found, "free-form surface"), 3u);
+    EXPECT_EQ(skipped_of_type(found, "curve"), 2u);
+    EXPECT_EQ(noted(found.report, "free-form surface (rat bspline of degree 3 2) left out"), 2u);
+    EXPECT_EQ(noted(found.report, "free-form surface (bzp) left out"), 1u);
+    EXPECT_EQ(noted(found.report, "curve (rat bspline of degree 3 2) left out"), 1u);
+    EXPECT_EQ(noted(found.report, "curve (cdc) left out"), 1u);
+    EXPECT_EQ(found.ledger.read_count(), 6u);
+    EXPECT_EQ(noted(found.report, "unknown statement"), 0u);
+}
+
+/// How often a statement of some type stands in a text, by what a line begins with; lines may go on.
+std::size_t statements_in(const std::string& text, const std::set<std::string>& words)
+{
+    std::size_t count = 0;
+    bool goes_on = false;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::string word;
+        std::istringstream(line) >> word;
+        count += !goes_on && words.count(word) > 0 ? 1 : 0;
+        goes_on = !line.empty() && line.back() == '\\';
+    }
+    return count;
+}
+
+TEST(Obj, TheLedgerBalancesForRandomlyChangedFiles)
+{
+    const std::set<std::string> counted = {"f", "fo", "l", "p", "curv", "curv2", "surf", "bsp", "bzp", "cdc", "cdp"};
+    RandomStream random(4);
+    for (const char* name : {"room.obj", "cylinder.obj", "damaged.obj", "warped.obj"}) {
+        const std::string whole(MappedFile(fixtures / name).bytes());
+        for (int round = 0; round < 300; ++round) {
+            std::string text = whole;
+            for (int change = 0; change < 5; ++change) {
+                const std::size_t at = random.bits() % text.size();
+                const char letters[] = "0123456789 -/.vfglspe\n";
+                text[at] = letters[random.bits() % (sizeof letters - 1)];
+            }
+            SCOPED_TRACE(text);
+            try {
+                const Imported found = import_text(text);
+                EXPECT_NO_THROW(validate(found.scene));
+                EXPECT_EQ(found.ledger.read_count(), statements_in(text, counted));
+                std::size_t by_key = 0;
+                for (const std::size_t made : found.made_with_key)
+                    by_key += made;
+                EXPECT_EQ(by_key, found.ledger.made_count());
+            } catch (const InputError&) {
+                EXPECT_EQ(statements_in(text, {"v", "f"}), 0u);
+            }
+        }
+    }
 }
 
 TEST(Obj, ContentDecidesWhetherAFileIsObj)

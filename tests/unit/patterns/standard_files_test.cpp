@@ -70,5 +70,17 @@ TEST(StandardFunctionFiles, AnglesOfLampsCountFromBelow)
     EXPECT_NEAR(value("cylcorr(3)", {1, 0, 0}, {1, .2, .5}), 3 / .1, 1e-12);
 }
 
+TEST(StandardFunctionFiles, DataOfLampsAreCorrectedForThePlace)
+{
+    // The correction asks for the place, not only for what the table gives.
+    const PatternFolder folder;
+    folder.write("even.dat", "2\n0 90 2\n0 180 2\n6 6\n6 6\n");
+    PatternPlace place;
+    place.direction = {std::sqrt(0.75), 0, 0.5};
+    place.normal = {0, 0, -1};
+    const auto lamp = folder.pattern("brightdata", {"flatcorr", "even.dat", "source.cal", "src_phi4", "src_theta"});
+    EXPECT_NEAR(lamp->at(place).g, 12, 1e-12);
+}
+
 } // namespace
 } // namespace lightwell

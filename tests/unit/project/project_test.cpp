@@ -48,6 +48,7 @@ files = ["house.dxf", "trees/oak.obj"]
 map = "map.toml"
 unit = "mm"
 up = "z"
+extrude = ["A-WALL=2.8", "S-*=300cm"]
 [place]
 latitude = -33.9
 longitude = 151.2
@@ -86,6 +87,9 @@ hdr = true
     EXPECT_EQ(project.inputs.map, folder_ / "map.toml");
     EXPECT_EQ(project.inputs.unit, "mm");
     EXPECT_EQ(project.inputs.up, "z");
+    ASSERT_EQ(project.inputs.raised.size(), 2u);
+    EXPECT_EQ(project.inputs.raised[1].layer, "S-*");
+    EXPECT_EQ(project.inputs.raised[1].height_m, 3);
     ASSERT_TRUE(project.place);
     EXPECT_EQ(project.place->latitude_deg, -33.9);
     EXPECT_EQ(project.place->longitude_deg, 151.2);

@@ -170,22 +170,21 @@ TEST(SceneModifiers, APatternThatIsNotModelledLeavesItsMaterialAndIsNoted)
 {
     const SceneFolder folder;
     Report report;
-    const Scene scene = folder.read("void colorpict carpet 7 red green blue carpet.hdr picture.cal pic_u pic_v 0 0\n"
-                                    "carpet texfunc bumps 4 0 0 \"if(a, b)\" bumps.cal 0 0\n"
-                                    "bumps plastic floor 0 0 5 .3 .3 .3 0 0 floor sphere s 0 0 4 0 0 0 1",
+    const Scene scene = folder.read("void specpict carpet 5 noneg carpet.hsr . U V 0 0\n"
+                                    "carpet plastic floor 0 0 5 .3 .3 .3 0 0 floor sphere s 0 0 4 0 0 0 1",
                                     report);
     EXPECT_EQ(std::get<Plastic>(*resolve(scene, scene.root.surfaces[0].modifier).material).colour.r, 0.3);
-    ASSERT_EQ(report.notes().size(), 2u);
+    ASSERT_EQ(report.notes().size(), 1u);
     EXPECT_EQ(report.notes()[0].finding, Finding::unsupported);
-    EXPECT_NE(report.notes()[0].place.find("scene.rad:1: colorpict \"carpet\""), std::string::npos);
-    EXPECT_NE(report.notes()[1].text.find("texfunc"), std::string::npos);
+    EXPECT_NE(report.notes()[0].place.find("scene.rad:1: specpict \"carpet\""), std::string::npos);
+    EXPECT_NE(report.notes()[0].text.find("specpict"), std::string::npos);
 }
 
 TEST(SceneModifiers, AnEmitterUnderAPatternThatIsNotModelledIsRefusedWhenItIsUsed)
 {
     const SceneFolder folder;
-    const std::string lamp = "void brightdata ies 4 flatcorr x.dat source.cal src_theta 0 0\n"
-                             "ies light lamp 0 0 3 1 1 1\n";
+    const std::string lamp = "void specpict colours 5 noneg colours.hsr . U V 0 0\n"
+                             "colours light lamp 0 0 3 1 1 1\n";
     EXPECT_EQ(folder.error(lamp), "");
     const std::string message = folder.error(lamp + "lamp sphere bulb 0 0 4 0 0 0 .1");
     EXPECT_TRUE(message.starts_with("scene.rad:3: sphere \"bulb\": uses ")) << message;

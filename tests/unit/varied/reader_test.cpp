@@ -71,7 +71,7 @@ TEST(PatternText, WhatIsWrittenReadsBackToTheSameScene)
     folder.write("ramp.dat", "1 0 1 2 .2 .9");
     folder.write("wave.cal", "wave(v) = v * A1; wx = Px / 2;");
     folder.write("square.fnt", "32 0\n79 4 51 51 204 51 204 204 51 204");
-    const std::string text = "void brightdata ramp 9 wave ramp.dat wave.cal wx -rz 30 -t 1 2 3 0 1 .5\n"
+    const std::string text = "void brightdata ramp 10 wave ramp.dat wave.cal wx -rz 30 -t 1 2 3 0 1 .5\n"
                              "ramp plastic m 0 0 5 .8 .8 .8 0 0\n"
                              "void texfunc bump 4 \"sin(Px) * .1\" 0 0 . 0 0\nbump alias bumpy m\n"
                              "void plastic dark 0 0 5 .1 .1 .1 0 0\n"
