@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/nearest.h"
+#include "importers/geometry_words.h"
 #include "importers/layer_rules.h"
 #include "materials/library.h"
 
@@ -114,6 +115,8 @@ std::string place_of(const LayerMap& map, const LayerRule& rule)
         throw InputError{place_of(map, rule), std::string(word.name) + " = \"" + pattern + "\" matches no surface",
                          hint.empty() ? "the file gives no surface a " + std::string(word.name) : hint};
     }
+    if (rule.area_m2 != NumberRange{} || rule.size_m != NumberRange{})
+        said += (said.empty() ? "" : ", ") + std::string("the area and size of the rule");
     throw InputError{place_of(map, rule), "no surface has " + said + " together",
                      "list the layers with `lightwell layers`, or drop a word of the rule"};
 }
@@ -122,17 +125,18 @@ struct RuleUse {
     std::vector<bool> matched, won;
 };
 
-/// The last rule that matches the key; nothing when none does.
-const LayerRule* winning_rule(const LayerMap& map, const SurfaceKey& key, RuleUse& use)
+/// The last rule that matches the key of a modifier; -1 when none does.
+int winning_rule(const LayerMap& map, const SurfaceKey& key, std::size_t modifier, const GeometryClasses& classes,
+                 RuleUse& use)
 {
-    const LayerRule* winner = nullptr;
+    int winner = -1;
     for (std::size_t i = map.rules.size(); i-- > 0;) {
-        if (!rule_matches(map.rules[i], key))
+        if (!rule_matches(map.rules[i], key) || !classes.fits(modifier, i))
             continue;
         use.matched[i] = true;
-        if (!winner) {
+        if (winner < 0) {
             use.won[i] = true;
-            winner = &map.rules[i];
+            winner = static_cast<int>(i);
         }
     }
     return winner;
@@ -202,11 +206,27 @@ void note_useless(Imported& imported, const LayerMap& map, const RuleUse& use)
 
 } // namespace
 
+void give_each_modifier_a_key(Imported& imported)
+{
+    for (std::size_t i = imported.keys.size(); i < imported.scene.modifiers.size(); ++i)
+        imported.keys.push_back({imported.scene.modifiers[i].name, {}, {}, {}, {}, {}});
+}
+
+ModifierId add_copy(Imported& imported, ModifierId of)
+{
+    give_each_modifier_a_key(imported);
+    const auto index = static_cast<std::size_t>(of);
+    imported.scene.modifiers.push_back(imported.scene.modifiers[index]);
+    imported.keys.push_back(imported.keys[index]);
+    return static_cast<ModifierId>(imported.keys.size() - 1);
+}
+
 std::vector<Choice> choose_materials(Imported& imported, const LayerMap& map)
 {
     const MaterialNames names{imported};
     for (const LayerRule& rule : map.rules) // unknown names are errors even where no surface would get them
         names.named(rule.use, rule.side, place_of(map, rule));
+    const GeometryClasses classes{imported, map};
     std::vector<Choice> choices(imported.scene.modifiers.size());
     RuleUse use{std::vector<bool>(map.rules.size()), std::vector<bool>(map.rules.size())};
     std::vector<std::size_t> unmapped;
@@ -218,8 +238,10 @@ std::vector<Choice> choose_materials(Imported& imported, const LayerMap& map)
         const SurfaceKey& key = imported.keys[i];
         if (is_placeholder(imported.scene.modifiers[i])) {
             choices[i].kind = Choice::Kind::inherited; // rules are for the keys that instances put in its place
-        } else if (const LayerRule* rule = winning_rule(map, key, use)) {
-            choices[i] = names.named(rule->use, rule->side, place_of(map, *rule));
+        } else if (const int winner = winning_rule(map, key, i, classes, use); winner >= 0) {
+            const LayerRule& rule = map.rules[static_cast<std::size_t>(winner)];
+            choices[i] = names.named(rule.use, rule.side, place_of(map, rule));
+            choices[i].rule = winner;
         } else {
             choices[i] = choice_without_rule(key, map, names);
             if (map.default_material.empty() && (key.material.empty() || !names.of_file(key.material)))

@@ -18,7 +18,14 @@ struct Choice {
     std::string name;                        ///< of the material in the scene
     const Material* definition = nullptr;    ///< of the library or of Imported::file_materials
     EmissionSide side = EmissionSide::front; ///< for emitters
+    int rule = -1;                           ///< of the map, which decided; -1: none
 };
+
+/// Modifiers beyond the keys are complete already; afterwards each has a key with its name as layer.
+void give_each_modifier_a_key(Imported& imported);
+
+/// A modifier with its key once more, for surfaces that are to be told apart.
+ModifierId add_copy(Imported& imported, ModifierId of);
 
 /// One choice for each modifier of the scene. Notes what has no rule and what had no effect.
 /// @throws InputError for an unknown material or a rule that matches nothing

@@ -22,9 +22,28 @@ EmissionSide side_of(const TomlTable& table)
                      "it says to which side of a sheet an emitter sends its light"};
 }
 
+NumberRange range_of(const TomlTable& table, const char* word)
+{
+    const auto text = table.text(word);
+    if (!text)
+        return {};
+    const std::size_t dots = text->find("..");
+    const auto end = [&](std::string_view number, double without) -> std::optional<double> {
+        return trimmed(number).empty() ? without : parse_double(trimmed(number));
+    };
+    if (dots != std::string::npos && trimmed(*text) != "..") {
+        const auto low = end(std::string_view(*text).substr(0, dots), -infinity);
+        const auto high = end(std::string_view(*text).substr(dots + 2), infinity);
+        if (low && high && *low <= *high)
+            return {*low, *high};
+    }
+    throw InputError{table.place_of(word), std::string(word) + " is \"" + *text + "\", expected LOW..HIGH",
+                     "for example \"0.5..2\", \"..0.1\" or \"10..\""};
+}
+
 LayerRule rule_of(const TomlTable& table)
 {
-    table.expect_words({"layer", "group", "block", "material", "entity", "colour", "use", "side"});
+    table.expect_words({"layer", "group", "block", "material", "entity", "colour", "area_m2", "size_m", "use", "side"});
     LayerRule rule;
     rule.line = table.line();
     bool any = false;
@@ -38,9 +57,11 @@ LayerRule rule_of(const TomlTable& table)
         rule.*word.pattern = *pattern;
         any = true;
     }
-    if (!any)
+    rule.area_m2 = range_of(table, "area_m2");
+    rule.size_m = range_of(table, "size_m");
+    if (!any && !table.has("area_m2") && !table.has("size_m"))
         throw InputError{table.place(), "the rule says for no surface",
-                         "give at least one of layer, group, block, material, entity, colour"};
+                         "give at least one of layer, group, block, material, entity, colour, area_m2, size_m"};
     if (!rule.colour.empty() && rule.colour[0] != '#')
         throw InputError{table.place_of("colour"), "colour is \"" + rule.colour + "\", expected #rrggbb",
                          "for example colour = \"#ff0000\""};

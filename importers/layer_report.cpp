@@ -1,6 +1,7 @@
 #include "importers/layer_report.h"
 
 #include "importers/layers.h"
+#include "importers/screen_columns.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,24 +15,6 @@ using Json = nlohmann::ordered_json;
 Json to_json(const Point& p)
 {
     return Json::array({p.x, p.y, p.z});
-}
-
-/// Columns on a screen: one for each code point, two for each East Asian one.
-std::size_t columns_of(const std::string& text)
-{
-    std::size_t columns = 0;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if ((byte & 0xC0) != 0x80)
-            columns += byte >= 0xE3 && byte < 0xF0 ? 2 : 1;
-    }
-    return columns;
-}
-
-std::string padded(const std::string& text, std::size_t columns)
-{
-    const std::size_t used = columns_of(text);
-    return text + std::string(used < columns ? columns - used : 0, ' ');
 }
 
 /// Before a layer map is applied a scene holds no materials, and the column shows proposals.
@@ -63,11 +46,14 @@ std::string layers_json(const Imported& imported, const std::filesystem::path& f
     const Box box = bounds(imported.scene);
     json["bounds_m"] = box.empty() ? Json(nullptr) : Json::array({to_json(box.low), to_json(box.high)});
     json["layers"] = Json::array();
-    for (const LayerSummary& layer : summarize_layers(imported))
+    for (const LayerSummary& layer : summarize_layers(imported)) {
         json["layers"].push_back({{"name", layer.name},
                                   {"surfaces", layer.surfaces},
                                   {"area_m2", layer.area_m2},
                                   {"material", layer.material}});
+        if (!layer.file_material.empty())
+            json["layers"].back()["file_material"] = layer.file_material;
+    }
     Json skipped = Json::array();
     for (const Ledger::Skipped& entry : imported.ledger.skipped_list())
         skipped.push_back(
@@ -82,14 +68,22 @@ std::string layers_json(const Imported& imported, const std::filesystem::path& f
 std::string layers_table(const Imported& imported)
 {
     const std::vector<LayerSummary> layers = summarize_layers(imported);
-    std::size_t width = columns_of("layer");
-    for (const LayerSummary& layer : layers)
+    std::size_t width = columns_of("layer"), material_width = columns_of(material_heading(imported.scene));
+    bool any_of_file = false;
+    for (const LayerSummary& layer : layers) {
         width = std::max(width, columns_of(layer.name));
+        material_width = std::max(material_width, columns_of(layer.material));
+        any_of_file = any_of_file || !layer.file_material.empty();
+    }
+    const auto last_columns = [&](const std::string& material, const std::string& of_file) {
+        return any_of_file ? padded(material, material_width) + "  " + of_file : material;
+    };
     std::string text = fmt::format("{}  {:>10}  {:>12}  {}\n", padded("layer", width), "surfaces", "area m2",
-                                   material_heading(imported.scene));
+                                   last_columns(material_heading(imported.scene), "material of the file"));
     for (const LayerSummary& layer : layers)
         text += fmt::format("{}  {:>10}  {:>12.6g}  {}\n", padded(layer.name, width), layer.surfaces, layer.area_m2,
-                            layer.material.empty() ? "-" : layer.material);
+                            last_columns(layer.material.empty() ? "-" : layer.material,
+                                         layer.file_material.empty() ? "-" : layer.file_material));
     const Box box = bounds(imported.scene);
     if (!box.empty())
         text += fmt::format("unit {}; from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m\n", imported.unit,

@@ -1,64 +1,13 @@
-#include "engine/scene/expansion.h"
-#include "importers/emission_sides.h"
 #include "importers/layers.h"
-#include "importers/mapped_area.h"
+#include "importers/surface_amounts.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
-#include <unordered_map>
 
 namespace lightwell {
 namespace {
-
-struct Amount {
-    double surfaces = 0; ///< a double: a forest may have more than fit into an integer's product
-    double area_m2 = 0;
-};
-using Amounts = std::unordered_map<ModifierId, Amount>;
-
-/// Adds up surfaces and areas by modifier. What a prototype holds is added up once and scaled for each instance that
-/// is a similarity; only below other maps are instances walked one by one.
-class Adder {
-public:
-    explicit Adder(const Scene& scene) : scene_(scene)
-    {
-        for (const Part& part : scene.prototypes)
-            of_prototype_.push_back(amounts_of(part, {}));
-    }
-    Amounts amounts_of(const Part& part, const Affine& to_world) const
-    {
-        Amounts amounts;
-        for (const Surface& surface : part.surfaces) {
-            if (surface.shape == Shape::instance) {
-                add_instance(amounts, part.instances[surface.index], to_world);
-                continue;
-            }
-            if (surface.name.ends_with(back_suffix))
-                continue;
-            Amount& amount = amounts[surface.modifier];
-            amount.surfaces += 1;
-            amount.area_m2 += mapped_area_m2(part, surface, to_world);
-        }
-        return amounts;
-    }
-
-private:
-    void add_instance(Amounts& amounts, const Instance& instance, const Affine& outer) const
-    {
-        const Affine to_world = compose(outer, instance.to_parent);
-        const double scale = similarity_scale(to_world);
-        const Amounts inner =
-            scale > 0 ? of_prototype_[instance.prototype] : amounts_of(scene_.prototypes[instance.prototype], to_world);
-        for (const auto& [modifier, amount] : inner) {
-            Amount& sum = amounts[bound_modifier(scene_, modifier, instance.bindings)];
-            sum.surfaces += amount.surfaces;
-            sum.area_m2 += amount.area_m2 * (scale > 0 ? scale * scale : 1);
-        }
-    }
-
-    const Scene& scene_;
-    std::vector<Amounts> of_prototype_;
-};
 
 /// The material behind a modifier after mapping; the proposal before.
 std::string material_of(const Imported& imported, ModifierId id)
@@ -76,11 +25,40 @@ std::string material_of(const Imported& imported, ModifierId id)
     return index < imported.keys.size() ? propose_material(imported.keys[index]) : std::string();
 }
 
+/// What the file says of its materials, by their names.
+std::map<std::string, std::string> file_materials_in_short(const Imported& imported)
+{
+    std::map<std::string, std::string> texts;
+    for (const auto& [name, material] : imported.file_materials)
+        texts.try_emplace(name, name + " (" + material_in_short(material) + ')');
+    return texts;
+}
+
+/// A list with commas, each entry once.
+void append_once(std::string& list, const std::string& entry)
+{
+    if (list.empty())
+        list = entry;
+    else if (!entry.empty() && (", " + list + ",").find(", " + entry + ",") == std::string::npos)
+        list += ", " + entry;
+}
+
 } // namespace
+
+std::string material_in_short(const Material& material)
+{
+    const std::string type = type_name(material);
+    if (is_emitter(material))
+        return fmt::format("{}, {:.4g} cd/m2", type, lumens_per_watt * photopic(emitted_radiance(material)));
+    if (const auto* glass = std::get_if<Glass>(&material))
+        return fmt::format("{}, {:.0f} %", type, 100 * photopic(glass->transmissivity));
+    return fmt::format("{}, {:.0f} %", type, 100 * photopic(typical_reflectance(material)));
+}
 
 std::vector<LayerSummary> summarize_layers(const Imported& imported)
 {
-    const Amounts amounts = Adder{imported.scene}.amounts_of(imported.scene.root, {});
+    const std::map<std::string, std::string> of_file = file_materials_in_short(imported);
+    const auto amounts = surface_amounts(imported.scene);
     std::vector<ModifierId> order;
     for (const auto& entry : amounts)
         order.push_back(entry.first);
@@ -98,10 +76,11 @@ std::vector<LayerSummary> summarize_layers(const Imported& imported)
         layer.surfaces += static_cast<std::size_t>(amount.surfaces);
         layer.area_m2 += amount.area_m2;
         const std::string material = known ? material_of(imported, id) : std::string("void");
-        if (layer.material.empty())
-            layer.material = material;
-        else if (!material.empty() && (", " + layer.material + ",").find(", " + material + ",") == std::string::npos)
-            layer.material += ", " + material;
+        append_once(layer.material, material);
+        if (known && static_cast<std::size_t>(id) < imported.keys.size()) {
+            const auto entry = of_file.find(imported.keys[static_cast<std::size_t>(id)].material);
+            append_once(layer.file_material, entry == of_file.end() ? std::string() : entry->second);
+        }
     }
     std::vector<LayerSummary> result;
     for (auto& [name, layer] : layers)

@@ -24,6 +24,8 @@ std::string to_string(Finding finding)
         return "unused";
     case Finding::converted:
         return "converted";
+    case Finding::question:
+        return "question";
     }
     return "note";
 }
@@ -59,23 +61,56 @@ std::ostream& operator<<(std::ostream& out, const Report& report)
     return out;
 }
 
+void Ledger::made(const std::string& type, const std::string& layer, std::size_t count)
+{
+    if (count == 0)
+        return;
+    made_[{type, layer, {}}] += count;
+    made_count_ += count;
+}
+
 void Ledger::skipped(const std::string& type, const std::string& layer, const std::string& reason, std::size_t count)
 {
     skipped_[{type, layer, reason}] += count;
 }
 
-void Ledger::unmake(const std::string& type, const std::string& layer, const std::string& reason, std::size_t count)
+void Ledger::repaired(const std::string& type, const std::string& layer, const std::string& what, std::size_t count)
 {
-    made_ -= std::min(made_, count);
+    repaired_[{type, layer, what}] += count;
+}
+
+void Ledger::unmake(const std::string& type, const std::string& layer, const std::string& reason, std::size_t count,
+                    const std::string& made_on)
+{
+    const auto take = [&](const Key& key) {
+        const auto entry = made_.find(key);
+        if (entry == made_.end())
+            return false;
+        entry->second -= std::min(entry->second, count);
+        if (entry->second == 0)
+            made_.erase(entry);
+        return true;
+    };
+    if (!take({type, made_on.empty() ? layer : made_on, {}}))
+        take({});
+    made_count_ -= std::min(made_count_, count);
     skipped(type, layer, reason, count);
 }
 
 std::size_t Ledger::read_count() const
 {
-    std::size_t total = made_;
+    std::size_t total = made_count_;
     for (const auto& entry : skipped_)
         total += entry.second;
     return total;
+}
+
+std::vector<Ledger::Made> Ledger::made_list() const
+{
+    std::vector<Made> list;
+    for (const auto& [key, count] : made_)
+        list.push_back({key.type, key.layer, count});
+    return list;
 }
 
 std::vector<Ledger::Skipped> Ledger::skipped_list() const
@@ -86,11 +121,21 @@ std::vector<Ledger::Skipped> Ledger::skipped_list() const
     return list;
 }
 
+std::vector<Ledger::Repaired> Ledger::repaired_list() const
+{
+    std::vector<Repaired> list;
+    for (const auto& [key, count] : repaired_)
+        list.push_back({key.type, key.layer, key.reason, count});
+    return list;
+}
+
 void Ledger::add(const Ledger& other)
 {
-    made_ += other.made_;
-    for (const auto& [key, count] : other.skipped_)
-        skipped_[key] += count;
+    made_count_ += other.made_count_;
+    for (const auto& [mine, theirs] : {std::pair{&made_, &other.made_}, std::pair{&skipped_, &other.skipped_},
+                                       std::pair{&repaired_, &other.repaired_}})
+        for (const auto& [key, count] : *theirs)
+            (*mine)[key] += count;
 }
 
 } // namespace lightwell

@@ -17,7 +17,8 @@ enum class Finding {
     unsupported,  ///< read, has meaning, not modelled yet
     unmapped,     ///< no rule of the layer map matched; the default was used
     unused,       ///< a rule, material or option had no effect
-    converted     ///< a unit, axis, colour or lamp power was converted; how is named
+    converted,    ///< a unit, axis, colour or lamp power was converted; how is named
+    question      ///< what the file says is understood, and hard to believe; nothing was changed
 };
 
 std::string to_string(Finding finding);
@@ -46,29 +47,46 @@ private:
 /// One line a note: `room.dxf:214: assumed: unit is millimetre (12 times)`.
 std::ostream& operator<<(std::ostream& out, const Report& report);
 
-/// The balance of an import: entities read = made into surfaces + skipped for a named reason.
+/// The balance of an import: entities read = made into surfaces + skipped for a named reason. Repaired ones are among
+/// those made.
 class Ledger {
 public:
+    struct Made {
+        std::string type, layer;
+        std::size_t count = 0;
+    };
     struct Skipped {
         std::string type, layer, reason;
         std::size_t count = 0;
     };
-    void made(std::size_t count = 1) { made_ += count; }
+    struct Repaired {
+        std::string type, layer, what;
+        std::size_t count = 0;
+    };
+    /// Of no stated type and layer: counted, but in no row of the report.
+    void made(std::size_t count = 1) { made({}, {}, count); }
+    void made(const std::string& type, const std::string& layer, std::size_t count = 1);
     void skipped(const std::string& type, const std::string& layer, const std::string& reason, std::size_t count = 1);
+    void repaired(const std::string& type, const std::string& layer, const std::string& what, std::size_t count = 1);
     /// Moves entities that were made, but whose surfaces all were dropped later, to the skipped side.
-    void unmake(const std::string& type, const std::string& layer, const std::string& reason, std::size_t count = 1);
+    /// @param made_on  the layer that made() was told; empty: `layer`
+    void unmake(const std::string& type, const std::string& layer, const std::string& reason, std::size_t count = 1,
+                const std::string& made_on = {});
     std::size_t read_count() const;
-    std::size_t made_count() const { return made_; }
+    std::size_t made_count() const { return made_count_; }
+    std::vector<Made> made_list() const;
     std::vector<Skipped> skipped_list() const;
+    std::vector<Repaired> repaired_list() const;
     void add(const Ledger& other);
 
 private:
-    std::size_t made_ = 0;
     struct Key {
         std::string type, layer, reason;
         auto operator<=>(const Key&) const = default;
     };
-    std::map<Key, std::size_t> skipped_;
+    std::size_t made_count_ = 0;
+    std::map<Key, std::size_t> made_; ///< without a reason
+    std::map<Key, std::size_t> skipped_, repaired_;
 };
 
 } // namespace lightwell

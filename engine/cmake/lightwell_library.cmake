@@ -23,6 +23,12 @@ if(LIGHTWELL_SANITIZE)
         -Wno-maybe-uninitialized -Wno-restrict)
     target_link_options(lightwell_flags INTERFACE -fsanitize=address,undefined)
 endif()
+if(LIGHTWELL_FUZZ)
+    # The compiler of the fuzzers is another one than the house's: its warnings are no errors. Assertions are on.
+    target_compile_options(lightwell_flags INTERFACE -fsanitize=address,undefined,fuzzer-no-link
+        -fno-sanitize-recover=all -UNDEBUG -Wno-error)
+    target_link_options(lightwell_flags INTERFACE -fsanitize=address,undefined)
+endif()
 
 # lightwell_library(NAME SOURCES file... USES folder-target... HIDES package-target...)
 #   USES   the folders whose headers this one includes; tests/structure holds the includes to it

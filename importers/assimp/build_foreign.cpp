@@ -191,7 +191,7 @@ void ForeignBuilder::build_mesh(std::uint32_t index, const std::vector<Use>& use
         imported_.ledger.skipped("mesh", layer, "zero area");
         return;
     }
-    imported_.ledger.made();
+    imported_.ledger.made("mesh", layer);
     materials_used_.insert(mesh.material);
 }
 

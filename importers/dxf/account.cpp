@@ -35,12 +35,12 @@ void account(const Drawing& drawing, const std::vector<Reason>& outcomes, Import
         if (!outcome)
             continue;
         const Entity& entity = drawing.entities[i];
+        const std::string &type = drawing.types[entity.type], &layer = drawing.layers[entity.layer].name;
         if (outcome == &made) {
-            imported.ledger.made();
+            imported.ledger.made(type, layer);
             ++made_on[entity.layer];
             continue;
         }
-        const std::string &type = drawing.types[entity.type], &layer = drawing.layers[entity.layer].name;
         imported.ledger.skipped(type, layer, outcome->text);
         if (outcome->loses_surfaces)
             imported.report.add(Finding::unsupported, drawing.place(entity),

@@ -1,6 +1,7 @@
 #include "importers/formats/formats.h"
 
 #include "engine/base/errors.h"
+#include "importers/questions.h"
 #include "importers/surfaces/recover_surfaces.h"
 
 namespace lightwell {
@@ -28,6 +29,7 @@ Imported import_file(const std::filesystem::path& file, const ImportOptions& opt
             recover_surfaces(imported, options);
             if (!options.raised.empty() && format.import != import_dxf)
                 imported.report.add(Finding::unused, file.filename().string(), "layers are raised in DXF files only");
+            ask_about_sizes(imported, file.filename().string());
             return imported;
         }
     throw InputError(file.filename().string(), "content is none of the formats that can be read",

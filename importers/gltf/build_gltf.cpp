@@ -62,7 +62,7 @@ private:
     void build_plain(int mesh, const std::vector<Use>& uses, bool counts);
     void build_posed(int mesh, const Use& use, const GltfPose& pose, bool counts);
     void place_once(const std::vector<Loaded>& parts, int mesh, const Use& use, bool only);
-    void unmake_unshown(int mesh, const Use& first);
+    void unmake_unshown();
     void place_copies(const std::vector<Loaded>& parts, int mesh, const std::vector<Use>& uses);
     SurfaceKey key_of(const GltfPrimitive& primitive, int mesh, int node) const;
     std::string material_name(int material) const;
@@ -74,7 +74,8 @@ private:
     KeyTable keys_;
     std::set<std::string> light_materials_;
     std::set<int> open_shells_;
-    std::vector<bool> made_, shown_;       ///< by primitive of the mesh at hand: in the ledger, in the scene
+    std::vector<std::string> made_on_;     ///< by primitive of the mesh at hand: its layer in the ledger
+    std::vector<bool> shown_;              ///< by primitive of the mesh at hand: in the scene
     std::map<int, std::vector<Use>> uses_; ///< by mesh
     std::string first_fault_;
     std::size_t bytes_ = 0, readings_ = 0;
@@ -126,7 +127,7 @@ void GltfBuilder::visit_light(int index, const Affine& to_world)
             ? "refers to a light that is not there"
             : add_light(document_, light, std::move(key), to_world, light_materials_, keys_, imported_);
     if (fault.empty())
-        imported_.ledger.made();
+        imported_.ledger.made("light", layer);
     else
         imported_.ledger.skipped("light", layer, fault);
 }
@@ -315,17 +316,19 @@ void GltfBuilder::load_primitive(int index, std::size_t number, const GltfPose& 
         if (!read.mesh.triangles.empty()) {
             if (wants_inside(document_, primitive.material) && !is_closed(read.mesh))
                 open_shells_.insert(primitive.material);
-            imported_.ledger.made(counts ? 1 : 0);
-            made_[number] = made_[number] || counts;
+            if (counts) {
+                imported_.ledger.made("mesh", layer);
+                made_on_[number] = layer;
+            }
             parts.push_back({&primitive, std::make_shared<Mesh>(std::move(read.mesh)), number});
         } else if (counts) {
-            imported_.ledger.skipped("primitive", layer, "zero area");
+            imported_.ledger.skipped("mesh", layer, "zero area");
         }
     } catch (const InputError& error) {
         if (first_fault_.empty() && std::string_view(error.what()).find(buffer_left_open) == std::string_view::npos)
             first_fault_ = error.what();
         if (counts)
-            imported_.ledger.skipped("primitive", layer, "damaged");
+            imported_.ledger.skipped("mesh", layer, "damaged");
         imported_.report.add(Finding::ignored, document_.name + ": mesh \"" + mesh.name + '"',
                              std::string("primitive left out: ") + error.what());
     }
@@ -355,13 +358,11 @@ void GltfBuilder::place_once(const std::vector<Loaded>& parts, int mesh, const U
 }
 
 /// What was read but could be placed nowhere goes to the other side of the ledger.
-void GltfBuilder::unmake_unshown(int mesh, const Use& first)
+void GltfBuilder::unmake_unshown()
 {
-    const GltfMesh& from = document_.meshes[static_cast<std::size_t>(mesh)];
-    for (std::size_t i = 0; i < from.primitives.size(); ++i)
-        if (made_[i] && !shown_[i])
-            imported_.ledger.unmake("primitive", key_of(from.primitives[i], mesh, first.node).layer,
-                                    "placed beyond the range of numbers");
+    for (std::size_t i = 0; i < made_on_.size(); ++i)
+        if (!made_on_[i].empty() && !shown_[i])
+            imported_.ledger.unmake("mesh", made_on_[i], "placed beyond the range of numbers");
 }
 
 void GltfBuilder::place_copies(const std::vector<Loaded>& parts, int mesh, const std::vector<Use>& uses)
@@ -398,8 +399,8 @@ void GltfBuilder::build_posed(int mesh, const Use& use, const GltfPose& pose, bo
 
 void GltfBuilder::build_mesh(int mesh, const std::vector<Use>& uses)
 {
-    made_.assign(document_.meshes[static_cast<std::size_t>(mesh)].primitives.size(), false);
-    shown_ = made_;
+    made_on_.assign(document_.meshes[static_cast<std::size_t>(mesh)].primitives.size(), {});
+    shown_.assign(made_on_.size(), false);
     bool counts = true;
     std::vector<Use> plain;
     for (const Use& use : uses) {
@@ -411,7 +412,7 @@ void GltfBuilder::build_mesh(int mesh, const std::vector<Use>& uses)
     }
     if (!plain.empty())
         build_plain(mesh, plain, counts);
-    unmake_unshown(mesh, uses.front());
+    unmake_unshown();
 }
 
 /// Shown at one place, a mesh goes into the scene; at several, it is a prototype. A map that flattens cannot be an

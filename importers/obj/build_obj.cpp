@@ -207,7 +207,7 @@ void ObjBuilder::add_face(const ObjFace& face)
     const bool with_normals = has_area && smooth(face);
     if (has_area && !with_normals && outline_.planar()) {
         imported_.scene.root.add_polygon(outline_.points, modifier_of(face.state), face_name(face.number));
-        imported_.ledger.made();
+        imported_.ledger.made("face", layer_of(file_.states[face.state]));
         return;
     }
     const std::size_t before = imported_.ledger.made_count();
@@ -285,7 +285,7 @@ void ObjBuilder::add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& 
         }
         any = true;
     }
-    imported_.ledger.made(any ? 1 : 0);
+    imported_.ledger.made("face", layer_of(file_.states[face.state]), any ? 1 : 0);
 }
 
 void ObjBuilder::finish_meshes(std::unordered_map<std::uint32_t, MeshInProgress>& meshes)

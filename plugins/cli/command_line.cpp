@@ -50,6 +50,7 @@ Status parse_and_run(const std::vector<std::string>& arguments)
     app.footer(overview);
     add_layers(app, status);
     add_import(app, status);
+    add_export(app, status);
     add_materials(app, status);
     add_render(app, status);
     add_illuminance(app, status);

@@ -1,6 +1,6 @@
 #include "engine/scene/add_sky.h"
 #include "importers/formats/formats.h"
-#include "importers/layers.h"
+#include "importers/layer_report.h"
 #include "importers/radiance/radiance.h"
 #include "plugins/cli/options.h"
 #include "plugins/cli/sky_words.h"
@@ -14,7 +14,7 @@ namespace lightwell {
 namespace {
 
 struct ImportCommand {
-    std::string drawing, map, output;
+    std::string drawing, map, output, report;
     ImportWords import;
     SkyWords sky;
     WriteOptions write;
@@ -30,11 +30,22 @@ file. Several drawings become one scene in a project file: lightwell run --help.
 Status import_drawing(const ImportCommand& options, std::ostream& out, std::ostream& err)
 {
     Imported imported = import_file(options.drawing, import_options(options.import));
-    apply_layer_map(imported, options.map.empty() ? LayerMap{} : read_layer_map(options.map));
+    std::vector<LedgerRow> rows;
+    if (!options.report.empty())
+        rows = ledger_rows(imported);
+    const std::vector<RuleHits> rules =
+        apply_layer_map(imported, options.map.empty() ? LayerMap{} : read_layer_map(options.map));
     if (!options.sky.type.empty())
         add_sky(imported.scene, sky_of(options.sky).model);
     write_radiance(imported.scene, options.output, options.write, imported.report);
     err << imported.report;
+    update_counts(rows, imported.ledger);
+    if (options.report == "json") {
+        out << report_json(imported, options.drawing, rows, rules);
+        return Status::done;
+    }
+    if (options.report == "table")
+        out << report_table(imported, rows, rules);
     out << options.output << ": " << expanded_count(imported.scene) << " surfaces, unit " << imported.unit << "; "
         << imported.ledger.read_count() << " entities read = " << imported.ledger.made_count() << " made + "
         << imported.ledger.read_count() - imported.ledger.made_count() << " skipped\n";
@@ -51,6 +62,8 @@ void add_import(CLI::App& app, Status& status)
     command.add_option("drawing", options->drawing, "CAD file: .dxf, .obj, .gltf, .glb")->required();
     command.add_option("--map", options->map, "layer map (TOML): which layer is made of what")->type_name("FILE");
     command.add_option("-o,--output", options->output, "scene description, NAME.rad")->required()->type_name("FILE");
+    command.add_option("--report", options->report, "the ledger by layer and entity type: table or json")
+        ->check(CLI::IsMember({"table", "json"}));
     command.add_flag("--flat", options->write.flat, "expand blocks, so that one file says it all");
     add_import_words(command, options->import);
     add_sky_words(command, options->sky);

@@ -11,6 +11,7 @@ namespace lightwell {
 // Each adds one subcommand; its callback sets the status. One file each, in this order in the help.
 void add_layers(CLI::App& app, Status& status);
 void add_import(CLI::App& app, Status& status);
+void add_export(CLI::App& app, Status& status);
 void add_materials(CLI::App& app, Status& status);
 void add_render(CLI::App& app, Status& status);
 void add_illuminance(CLI::App& app, Status& status);

@@ -29,7 +29,7 @@ LIGHT_ROWS = [
 IMPORT_ROWS = [
     {"importers"},
     {"importers/dxf", "importers/obj", "importers/gltf", "importers/radiance", "importers/assimp",
-     "importers/surfaces"},
+     "importers/surfaces", "importers/export"},
     {"importers/formats"},
     {"importers/project"},
 ]

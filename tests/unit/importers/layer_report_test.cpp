@@ -1,5 +1,6 @@
 #include "importers/layer_report.h"
 #include "importers/layers.h"
+#include "importers/surface_amounts.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -124,6 +125,110 @@ TEST(LayersTable, ShowsEveryLayerWithAlignedColumns)
     EXPECT_NE(text.find("Wände            1           0.5  generic_wall\n"), std::string::npos) << text;
     EXPECT_NE(text.find("9 entities read, 6 made into surfaces, 3 skipped\n"), std::string::npos) << text;
     EXPECT_NE(text.find("skipped 3 x TEXT on layer \"A-ANNO\": has no area"), std::string::npos) << text;
+}
+
+/// As building(), with the types and layers of what was made.
+Imported counted_building()
+{
+    Imported imported = building();
+    imported.ledger = {};
+    imported.ledger.made("3DFACE", "A-WALL", 2);
+    imported.ledger.made("SPHERE", "0");
+    imported.ledger.made("INSERT", "E-LITE", 3);
+    imported.ledger.skipped("TEXT", "A-ANNO", "has no area", 3);
+    imported.ledger.skipped("3DFACE", "A-WALL", "zero area");
+    imported.ledger.repaired("3DFACE", "A-WALL", "cut into triangles");
+    return imported;
+}
+
+const LedgerRow& row_of(const std::vector<LedgerRow>& rows, const std::string& layer, const std::string& type)
+{
+    for (const LedgerRow& row : rows)
+        if (row.layer == layer && row.type == type)
+            return row;
+    throw std::runtime_error("no row " + layer + ' ' + type);
+}
+
+TEST(LedgerRows, BalanceAndMeasureEachTypeOnEachLayer)
+{
+    const std::vector<LedgerRow> rows = ledger_rows(counted_building());
+    const LedgerRow& wall = row_of(rows, "A-WALL", "3DFACE");
+    EXPECT_EQ(wall.read, 3u);
+    EXPECT_EQ(wall.made, 2u);
+    EXPECT_EQ(wall.skipped.at("zero area"), 1u);
+    EXPECT_EQ(wall.repaired.at("cut into triangles"), 1u);
+    EXPECT_EQ(wall.surfaces, 2u);
+    EXPECT_NEAR(wall.area_m2, 4, 1e-12);
+    EXPECT_EQ(wall.bounds.low, (Point{0, 0, 0}));
+    EXPECT_EQ(wall.bounds.high, (Point{2, 3, 1}));
+    EXPECT_EQ(row_of(rows, "0", "SPHERE").made, 1u);
+    EXPECT_EQ(row_of(rows, "0", "SPHERE").surfaces, 0u) << "they appear on the layer of the inserts";
+    const LedgerRow& lamps = row_of(rows, "E-LITE", "3DFACE");
+    EXPECT_EQ(lamps.surfaces, 3u);
+    EXPECT_EQ(lamps.bounds.high, (Point{2, 2, 2}));
+    std::size_t read = 0;
+    for (const LedgerRow& row : rows) {
+        std::size_t skipped = 0;
+        for (const auto& entry : row.skipped)
+            skipped += entry.second;
+        EXPECT_EQ(row.read, row.made + skipped) << row.layer << ' ' << row.type;
+        read += row.read;
+    }
+    EXPECT_EQ(read, 10u);
+}
+
+TEST(LedgerRows, WhatAMapLeavesOutMovesToTheSkippedSide)
+{
+    Imported imported = counted_building();
+    std::vector<LedgerRow> rows = ledger_rows(imported);
+    LayerMap map;
+    map.file = "map.toml";
+    LayerRule rule;
+    rule.layer = "A-WALL";
+    rule.use = "void";
+    map.rules = {rule};
+    apply_layer_map(imported, map);
+    update_counts(rows, imported.ledger);
+    const LedgerRow& wall = row_of(rows, "A-WALL", "3DFACE");
+    EXPECT_EQ(wall.made, 0u);
+    EXPECT_EQ(wall.skipped.at("void in the layer map"), 2u);
+    EXPECT_NEAR(wall.area_m2, 4, 1e-12) << "measured before the map";
+}
+
+TEST(LedgerReport, HasTheSameNumbersForPeopleAndForPrograms)
+{
+    const Imported imported = counted_building();
+    const std::vector<LedgerRow> rows = ledger_rows(imported);
+    const std::vector<RuleHits> rules{{7, "layer = \"A-*\" -> white_paint", 2, 4.0}};
+    const auto json = nlohmann::json::parse(report_json(imported, "house.dxf", rows, rules));
+    EXPECT_EQ(json["ledger"].size(), rows.size());
+    EXPECT_EQ(json["ledger"][2], nlohmann::json::parse(R"({"layer":"A-WALL","type":"3DFACE","read":3,"made":2,
+        "skipped":[{"reason":"zero area","count":1}],"repaired":[{"what":"cut into triangles","count":1}],
+        "surfaces":2,"area_m2":4.0,"bounds_m":[[0,0,0],[2,3,1]]})"));
+    EXPECT_EQ(json["totals"], nlohmann::json::parse(R"({"read":10,"made":6,"skipped":4})"));
+    EXPECT_EQ(json["rules"][0]["line"], 7);
+    const std::string text = report_table(imported, rows, rules);
+    EXPECT_NE(text.find("    skipped 1: zero area\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("10 entities read = 6 made into surfaces + 4 skipped"), std::string::npos) << text;
+    EXPECT_NE(text.find("rule in line 7: 2 surfaces, 4 m2: layer = \"A-*\" -> white_paint"), std::string::npos) << text;
+}
+
+TEST(SurfaceBoxes, OfTurnedRoundShapesAreTight)
+{
+    // A cylinder along x turned by 45 degrees about z: half its length and its radius, seen along each axis.
+    Part part;
+    part.add_cone({{{-1, 0, 0}, {1, 0, 0}}, {0.5, 0.5}}, Shape::cylinder, 0, "c");
+    const Box box = mapped_bounds(part, part.surfaces[0], Affine::rotate(2, pi / 4));
+    const double reach = (1 + 0.5) * std::sqrt(0.5);
+    EXPECT_NEAR(box.high.x, reach, 1e-12);
+    EXPECT_NEAR(box.high.y, reach, 1e-12);
+    EXPECT_NEAR(box.high.z, 0.5, 1e-12);
+    Part ball;
+    ball.add_sphere({{1, 0, 0}, 2}, Shape::sphere, 0, "s");
+    const Box squashed =
+        mapped_bounds(ball, ball.surfaces[0], compose(Affine::rotate(2, 1), Affine::scale({1, 1, .5})));
+    EXPECT_NEAR(squashed.high.x, std::cos(1.0) + 2, 1e-12);
+    EXPECT_NEAR(squashed.high.z, 1, 1e-12);
 }
 
 } // namespace
