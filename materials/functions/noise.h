@@ -15,9 +15,9 @@ struct NoiseValue {
 ///         a polynomial of degree five
 NoiseValue gradient_noise_at(const Point& at) noexcept;
 
-/// Rough noise in space: a cube halved again and again down to a two-thousandth, each new corner the mean of its neighbours
-/// and a chance part in proportion to the size: `fnoise3`.
-/// Source  recorded values of the function (tests/unit/functions)
+/// Rough noise in space: a cube halved again and again down to a two-thousandth, each new corner the mean of its
+/// neighbours and a chance part in proportion to the size: `fnoise3`. Source  recorded values of the function
+/// (tests/unit/functions)
 double fractal_noise_at(const Point& at) noexcept;
 
 } // namespace lightwell
