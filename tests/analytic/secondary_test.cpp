@@ -115,7 +115,7 @@ Found pooled(const Simulation& simulation, int samples)
 {
     Found found{};
     for (std::uint64_t run = 0; run < pooled_runs; ++run) {
-        const Mean one = mean_of(simulation, desks(), samples, 2 + run, false, 0.05);
+        const Mean one = mean_of(simulation, desks(), samples, 2 + run, false, 0.1);
         EXPECT_EQ(one.aimed_at, 1u);
         found.value += one.found.value / pooled_runs;
         found.error = std::hypot(found.error, one.found.error / pooled_runs);
@@ -137,7 +137,7 @@ TEST(SecondarySource, AWhiteFurnaceDoesNotChangeWhenItsWindowBecomesOne)
         room.scene.root.add_source({{0, 0, 1}, 360}, room.scene.add_material("all", Glow{radiance_of(luminance), 0}),
                                    "all");
         const Found found = pooled(Simulation(room.scene, with_secondary(true)), 1 << 10);
-        expect_agrees(found, pi * luminance, 0.06, 1e-9, pooled_interval);
+        expect_agrees(found, pi * luminance, 0.1, 1e-9, pooled_interval);
     }
 }
 
@@ -150,7 +150,7 @@ TEST(SecondarySource, TheFluxThroughAnOpeningIsNeitherDoubledNorLost)
         const Simulation simulation(room_behind_louvres(kind), with_secondary(true));
         const Found plain = mean_of(simulation, desks(), 1 << 16, 1, true).found;
         const Found aimed = pooled(simulation, 1 << 12);
-        expect_agrees({aimed.value, std::hypot(aimed.error, plain.error)}, plain.value, 0.15, 0.01, pooled_interval);
+        expect_agrees({aimed.value, std::hypot(aimed.error, plain.error)}, plain.value, 0.4, 0.01, pooled_interval);
     }
 }
 
@@ -158,8 +158,8 @@ TEST(SecondarySource, TheFluxThroughAnOpeningIsNeitherDoubledNorLost)
 TEST(SecondarySource, BehindLouvresAimedRaysReachTheNoiseOfManyTimesTheSamples)
 {
     const Scene scene = room_behind_louvres(Opening::sheet);
-    const Mean with = mean_of(Simulation(scene, with_secondary(true)), desks(), 256, 1, false);
-    const Mean without = mean_of(Simulation(scene, with_secondary(false)), desks(), 1024, 1, false);
+    const Mean with = mean_of(Simulation(scene, with_secondary(true)), desks(), 256, 1, false, 0.2);
+    const Mean without = mean_of(Simulation(scene, with_secondary(false)), desks(), 1024, 1, false, 0.2);
     EXPECT_EQ(without.aimed_at, 0u);
     EXPECT_LT(with.noise, without.noise) << "with a quarter of the samples";
     RecordProperty("noise_with_256", std::to_string(with.noise));
@@ -170,11 +170,11 @@ TEST(SecondarySource, AutomaticOnesAreThoseThatMuchMoreLightComesThroughFromOneS
 {
     Preparation all;
     all.secondary.all_panes = true;
-    EXPECT_EQ(mean_of(Simulation(room_behind_louvres(Opening::pane), all), desks(), 8, 1, false).aimed_at, 1u);
+    EXPECT_EQ(mean_of(Simulation(room_behind_louvres(Opening::pane), all), desks(), 8, 1, false, 0.2).aimed_at, 1u);
     Room room(0.5, Opening::pane);
     room.close_south(1.6, 1.2);
-    EXPECT_EQ(mean_of(Simulation(room.scene, all), desks(), 8, 1, false).aimed_at, 0u) << "no light at all";
-    EXPECT_EQ(mean_of(Simulation(room_behind_louvres(Opening::pane)), desks(), 8, 1, false).aimed_at, 0u)
+    EXPECT_EQ(mean_of(Simulation(room.scene, all), desks(), 8, 1, false, 0.2).aimed_at, 0u) << "no light at all";
+    EXPECT_EQ(mean_of(Simulation(room_behind_louvres(Opening::pane)), desks(), 8, 1, false, 0.2).aimed_at, 0u)
         << "none unless asked for";
 }
 
