@@ -91,7 +91,8 @@ void Planner::mirrors()
         : !narrow_sources        ? "flat mirrors, but neither lamps nor suns"
                                  : "switched off");
     add(StageKind::secondary_sources, needs_.illums.surfaces > 0,
-        needs_.illums.surfaces > 0 ? to_text(needs_.illums) + " chosen as secondary sources" : "none chosen (illum)");
+        needs_.illums.surfaces > 0 ? to_text(needs_.illums) + " chosen as secondary sources"
+                                   : "none chosen (illum, --secondary)");
 }
 
 void Planner::scattering()

@@ -78,7 +78,8 @@ class Wishes(Case):
 
 
 class Without(Case):
-    NAMES = ("ambient", "cache", "gradients", "hessian", "image", "adaptive", "subdivision", "virtual", "tree", "analytic")
+    NAMES = ("ambient", "cache", "gradients", "hessian", "image", "adaptive", "subdivision", "virtual", "secondary",
+             "tree", "analytic")
 
     def test_each_technique_has_a_name_and_an_unknown_one_is_refused_with_the_list(self):
         for name in self.NAMES:
@@ -99,6 +100,12 @@ class Without(Case):
         record = json.loads((self.folder / "a.run.json").read_text())
         self.assertIn("without cache,tree", record["settings"]["settings"])
         self.assertEqual(record["built"]["ambient_records"], 0)
+
+    def test_secondary_sources_are_chosen_by_name_and_what_is_none_is_refused(self):
+        words = ("illuminance", "room.rad", "--grid", GRID, "-o", "a.csv", "--samples", "8", "--secondary")
+        self.expect(DONE, *words, "auto")
+        self.assertEqual(json.loads((self.folder / "a.run.json").read_text())["built"]["secondary_sources"], 0)
+        self.expect(BAD_INPUT, *words, "nowhere", says=['"nowhere"', "no modifier of the scene"])
 
 
 if __name__ == "__main__":
