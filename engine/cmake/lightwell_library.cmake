@@ -9,7 +9,8 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 find_program(LIGHTWELL_CCACHE ccache)
 if(LIGHTWELL_CCACHE)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${LIGHTWELL_CCACHE})
+    # Without this sloppiness ccache keeps nothing that uses precompiled headers.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${LIGHTWELL_CCACHE})
 endif()
 
 # What every target is compiled with. -ffp-contract=off: the same bits whether or not the processor can fuse a
@@ -30,6 +31,13 @@ if(LIGHTWELL_FUZZ)
     target_link_options(lightwell_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# The standard library's headers, compiled once for all libraries: they are half the time of a small file.
+file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cpp "")
+add_library(lightwell_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+target_link_libraries(lightwell_precompiled PRIVATE lightwell_flags)
+target_precompile_headers(lightwell_precompiled PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional>
+    <map> <memory> <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <variant> <vector>)
+
 # lightwell_library(NAME SOURCES file... USES folder-target... HIDES package-target...)
 #   USES   the folders whose headers this one includes; tests/structure holds the includes to it
 #   HIDES  outside packages; they are linked privately and appear in no header of the folder
@@ -40,6 +48,7 @@ function(lightwell_library name)
         add_library(lightwell_${name} STATIC ${ARG_SOURCES})
         target_include_directories(lightwell_${name} PUBLIC ${PROJECT_SOURCE_DIR})
         target_link_libraries(lightwell_${name} PUBLIC ${ARG_USES} PRIVATE lightwell_flags ${ARG_HIDES})
+        target_precompile_headers(lightwell_${name} REUSE_FROM lightwell_precompiled)
     else() # headers only
         add_library(lightwell_${name} INTERFACE)
         target_include_directories(lightwell_${name} INTERFACE ${PROJECT_SOURCE_DIR})
