@@ -23,8 +23,7 @@ public:
     void line(std::string_view text)
     {
         ++line_;
-        const std::size_t hash = std::min(text.find('#'), text.size());
-        words_ = split(text.substr(0, hash), " \t\r");
+        words_ = split(text.substr(0, text.find('#')), " \t\r");
         if (words_.empty())
             return;
         if (words_[0] == "v")
