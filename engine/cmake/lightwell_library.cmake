@@ -41,14 +41,19 @@ target_precompile_headers(lightwell_precompiled PRIVATE <algorithm> <array> <cma
 # lightwell_library(NAME SOURCES file... USES folder-target... HIDES package-target...)
 #   USES   the folders whose headers this one includes; tests/structure holds the includes to it
 #   HIDES  outside packages; they are linked privately and appear in no header of the folder
+#   PRECOMPILE  headers to compile once for this folder, in place of those that all libraries share
 function(lightwell_library name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;USES;HIDES" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "SOURCES;USES;HIDES;PRECOMPILE" ${ARGN})
     list(TRANSFORM ARG_USES PREPEND lightwell_)
     if(ARG_SOURCES)
         add_library(lightwell_${name} STATIC ${ARG_SOURCES})
         target_include_directories(lightwell_${name} PUBLIC ${PROJECT_SOURCE_DIR})
         target_link_libraries(lightwell_${name} PUBLIC ${ARG_USES} PRIVATE lightwell_flags ${ARG_HIDES})
-        target_precompile_headers(lightwell_${name} REUSE_FROM lightwell_precompiled)
+        if(ARG_PRECOMPILE)
+            target_precompile_headers(lightwell_${name} PRIVATE ${ARG_PRECOMPILE})
+        else()
+            target_precompile_headers(lightwell_${name} REUSE_FROM lightwell_precompiled)
+        endif()
     else() # headers only
         add_library(lightwell_${name} INTERFACE)
         target_include_directories(lightwell_${name} INTERFACE ${PROJECT_SOURCE_DIR})
