@@ -88,6 +88,10 @@ class SceneFolder:
         self._write(file, data)
         return file
 
+    def file(self, name, data):
+        """Another file of the folder, for instance a sky that the text refers to."""
+        self._write(name, data)
+
     def mesh(self, modifier, name, part, matrix=None, source=None):
         """Polygons of a part, moved by a 3 x 4 or 4 x 4 matrix; `source` is the path of the object in the host."""
         self._place("mesh", modifier, name, part, matrix, source, ())

@@ -53,15 +53,15 @@ class Ply(unittest.TestCase):
         self.assertEqual(len(body), 9 * 8 + 4 + 3 * 4 + 2)
         self.assertEqual(body[72:], bytes([3, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 0, 0]))
 
-    def test_a_million_quads_take_seconds_not_minutes(self):
+    def test_two_hundred_thousand_quads_take_seconds_not_minutes(self):
         import time
         start = time.process_time()
-        side = 1001
-        at = np.arange(side * side).reshape(side, side)
+        columns, rows = 1001, 201
+        at = np.arange(rows * columns).reshape(rows, columns)
         corners = np.stack([at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]], axis=-1).reshape(-1)
-        data = ply.to_bytes(ply.PlyMesh(np.zeros((side * side, 3)), np.full(10**6, 4), corners))
-        self.assertEqual(len(data.split(b"end_header\n", 1)[1]), side * side * 24 + 10**6 * 20)
-        self.assertLess(time.process_time() - start, 10)
+        data = ply.to_bytes(ply.PlyMesh(np.zeros((rows * columns, 3)), np.full(200_000, 4), corners))
+        self.assertEqual(len(data.split(b"end_header\n", 1)[1]), rows * columns * 24 + 200_000 * 20)
+        self.assertLess(time.process_time() - start, 4)
 
     def test_what_is_wrong_is_refused_with_its_numbers(self):
         triangle = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
