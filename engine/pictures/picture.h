@@ -8,7 +8,7 @@ namespace lightwell {
 
 /// A picture of named float channels, row 0 at the top. Colour channels "R", "G", "B" in the engine's primaries are
 /// radiance in W/(m^2 sr); "illuminance.Y" lx, "Z" m along the view ray, "N.X" "N.Y" "N.Z", "error.R/G/B/Y"
-/// standard errors in the unit of what they belong to.
+/// standard errors in the unit of what they belong to, "bias.Y" the expected bias of the luminance, cd/m^2.
 struct Picture {
     /// Where the pixels lie in a larger picture: its column and row of pixel (0, 0), and its size.
     struct Place {

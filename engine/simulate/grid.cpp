@@ -261,8 +261,11 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         const Some checks = measure_some(plain_task, check_paths, step, settings.threads, check);
         std::vector<Checked> points;
         for (std::size_t k = 0; k < checks.values.size(); ++k)
-            points.push_back({all.values[k * step], checks.values[k], checks.errors[k]});
+            points.push_back({all.values[k * step], checks.values[k], checks.errors[k], receivers[k * step].position});
         result.bias = bias_of(points);
+        const LocalBias local(result.bias, points);
+        for (std::size_t i = 0; i < receivers.size(); ++i)
+            result.biases.push_back(Illuminance{local.at(receivers[i].position, all.values[i])});
     }
     fixed_rays += rays.next();
     result.work = ambient.work();

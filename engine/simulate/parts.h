@@ -89,7 +89,22 @@ void check_accuracy(double accuracy, const std::string& place);
 /// One value of a result beside its estimate by plain path tracing.
 struct Checked {
     double value = 0, plain = 0, plain_error = 0;
+    Point place = {}; ///< of the sensor, m, or the pixel, in pixels
 };
 BiasEstimate bias_of(const std::vector<Checked>& points);
+
+/// The bias to expect of each value: the mean one, and what the checked values nearby show beyond it, both less the
+/// part that noise of the check explains. 0 where the check cannot tell a bias from noise.
+class LocalBias {
+public:
+    LocalBias(const BiasEstimate& whole, const std::vector<Checked>& points);
+    /// @return  estimate of value - truth, in the unit of the value
+    double at(const Point& place, double value) const noexcept;
+
+private:
+    std::vector<Checked> points_;
+    std::vector<double> rest_; ///< relative to the value
+    double mean_ = 0, least_ = 0;
+};
 
 } // namespace lightwell

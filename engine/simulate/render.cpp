@@ -196,7 +196,8 @@ double median_relative_error(const Picture& picture)
     return median_relative(luminance, error);
 }
 
-BiasEstimate check_bias(const PixelTask& plain, const Tile& wanted, const Picture& picture, int threads, Teller& teller)
+/// Adds the channel "bias.Y" to the picture. @return  the estimate for the whole
+BiasEstimate check_bias(const PixelTask& plain, const Tile& wanted, Picture& picture, int threads, Teller& teller)
 {
     const Lattice lattice = measure_lattice(plain, wanted, check_columns, check_rows, check_paths, threads, teller);
     std::vector<Checked> points;
@@ -204,9 +205,20 @@ BiasEstimate check_bias(const PixelTask& plain, const Tile& wanted, const Pictur
         const auto at = [&](const char* channel) {
             return picture.at(channel, lattice.x[i] - wanted.x, lattice.y[i] - wanted.y);
         };
-        points.push_back({luminance_of({at("R"), at("G"), at("B")}).value, lattice.values[i], lattice.errors[i]});
+        const Point place{lattice.x[i] - wanted.x + 0.0, lattice.y[i] - wanted.y + 0.0, 0};
+        points.push_back(
+            {luminance_of({at("R"), at("G"), at("B")}).value, lattice.values[i], lattice.errors[i], place});
     }
-    return bias_of(points);
+    const BiasEstimate whole = bias_of(points);
+    const LocalBias local(whole, points);
+    std::vector<float>& channel = picture.add_channel("bias.Y");
+    for (int y = 0, i = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x, ++i) {
+            const auto at = [&](const char* name) { return picture.at(name, x, y); };
+            const double luminance = luminance_of({at("R"), at("G"), at("B")}).value;
+            channel[static_cast<std::size_t>(i)] = static_cast<float>(local.at({x + 0.0, y + 0.0, 0}, luminance));
+        }
+    return whole;
 }
 
 } // namespace

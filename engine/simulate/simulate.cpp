@@ -82,27 +82,6 @@ void check_accuracy(double accuracy, const std::string& place)
         throw InputError{place, fmt::format("accuracy is {}, expected between 0 and 1", accuracy), "write 5% or 0.05"};
 }
 
-BiasEstimate bias_of(const std::vector<Checked>& points)
-{
-    BiasEstimate bias;
-    bias.points = static_cast<int>(points.size());
-    double level = 0, sum = 0, squares = 0, noise = 0;
-    for (const Checked& p : points) {
-        const double difference = p.value - p.plain;
-        level += p.plain;
-        sum += difference;
-        squares += difference * difference;
-        noise += p.plain_error * p.plain_error;
-    }
-    const auto n = static_cast<double>(points.size());
-    if (!(level > 0))
-        return bias;
-    bias.mean = sum / level;
-    bias.standard_error = std::sqrt(std::max(squares - sum * sum / n, 0.0)) / level;
-    bias.spread = std::sqrt(std::max(squares - noise, 0.0) / n) / (level / n);
-    return bias;
-}
-
 Simulation::Simulation(Scene scene, const Preparation& preparation)
 {
     validate(scene);

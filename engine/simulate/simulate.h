@@ -121,6 +121,7 @@ struct GridSettings {
 struct GridResult {
     std::vector<Illuminance> values;
     std::vector<Illuminance> standard_errors;
+    std::vector<Illuminance> biases; ///< expected value - truth of each, apart from its standard error; empty: unbiased
     Illuminance mean_standard_error; ///< of the mean over the sensors: they share ambient light, so their errors too
     BiasEstimate bias;
     WorkCounts work;

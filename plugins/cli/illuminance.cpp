@@ -24,7 +24,8 @@ constexpr const char* examples = R"(Examples:
   lightwell illuminance room.rad --grid file:points.txt -o points.csv --samples 4096
 Grids: layer:NAME@HEIGHT/SPACING above the upward surfaces of the layers that match NAME; plane:z,x0,y0,x1,y1/SPACING
 level and facing up; file:POINTS with six numbers a line, place and direction; or the name of a grid of the scene.
-CSV columns: x,y,z,nx,ny,nz,illuminance_lx,error_lx, the last being one standard error.)";
+CSV columns: x,y,z,nx,ny,nz,illuminance_lx,error_lx,bias_lx: one standard error, and apart from it the bias
+to expect of this value (0: none that the check could tell from noise).)";
 
 Status illuminance(const IlluminanceOptions& options, std::ostream& out, std::ostream& err)
 {

@@ -25,13 +25,14 @@ constexpr int map_width_pixels = 720;
 
 std::string csv_of(const SensorGrid& grid, const GridResult& result)
 {
-    std::string text = "x,y,z,nx,ny,nz,illuminance_lx,error_lx\n";
+    std::string text = "x,y,z,nx,ny,nz,illuminance_lx,error_lx,bias_lx\n";
     for (std::size_t i = 0; i < grid.sensors.size(); ++i) {
         const Sensor& sensor = grid.sensors[i];
-        for (const double number : {sensor.position.x, sensor.position.y, sensor.position.z, sensor.normal.x,
-                                    sensor.normal.y, sensor.normal.z, result.values[i].value})
+        for (const double number :
+             {sensor.position.x, sensor.position.y, sensor.position.z, sensor.normal.x, sensor.normal.y,
+              sensor.normal.z, result.values[i].value, result.standard_errors[i].value})
             text += shortest(number) + ",";
-        text += shortest(result.standard_errors[i].value) + "\n";
+        text += shortest(result.biases.empty() ? 0 : result.biases[i].value) + "\n";
     }
     return text;
 }
@@ -58,7 +59,8 @@ std::map<std::string, std::string> map_header(const MapJob& job, const GridResul
     header["seed"] = std::to_string(job.settings.seed);
     header["samples"] = std::to_string(result.samples);
     header["median_relative_error"] = shortest(result.median_relative_error);
-    header["units"] = "illuminance.Y: lx on the front of each sensor; error.Y: its standard error, lx";
+    header["units"] =
+        "illuminance.Y: lx on the front of each sensor; error.Y: its standard error, lx; bias.Y: its expected bias, lx";
     return header;
 }
 
@@ -89,6 +91,8 @@ void write_map_picture(const MapJob& job, const GridResult& result, const std::f
     Picture picture{job.grid.columns, job.grid.rows, {}, map_header(job, result)};
     picture.channels["illuminance.Y"] = raster(job.grid, result.values);
     picture.channels["error.Y"] = raster(job.grid, result.standard_errors);
+    if (!result.biases.empty())
+        picture.channels["bias.Y"] = raster(job.grid, result.biases);
     write_exr(picture, file);
 }
 

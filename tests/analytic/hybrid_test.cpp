@@ -105,6 +105,21 @@ TEST(HybridSphere, InterreflectionIsExactAtEveryReflectance)
     }
 }
 
+/// In a closed sphere the hybrid has no bias: what is stated must be noise of the check that was not recognized as
+/// such, and no more than three of its standard errors.
+TEST(HybridBias, EachSensorHasItsOwnAndPlainPathsHaveNone)
+{
+    const Simulation sphere = lit_sphere(0.8, 0.05);
+    GridSettings settings = asked(0.05, 64);
+    const GridResult found = sphere.illuminance(sphere_sensors(16), settings);
+    ASSERT_EQ(found.biases.size(), 16u);
+    ASSERT_GT(found.bias.standard_error, 0);
+    for (std::size_t i = 0; i < found.biases.size(); ++i)
+        EXPECT_LT(std::fabs(found.biases[i].value), 3 * (found.bias.standard_error * 4) * found.values[i].value) << i;
+    settings.unbiased = true;
+    EXPECT_TRUE(sphere.illuminance(sphere_sensors(16), settings).biases.empty());
+}
+
 /// Isotropic lamp of 10,000 lm in the middle of a cube of 4 m, all faces of one reflectance.
 /// Source  radiosity with exact point-to-polygon factors on three meshes, and a random walk; uncertainty 0.03 %
 TEST(HybridBox, ACubeIsThatOfTheRadiositySolution)
