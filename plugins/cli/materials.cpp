@@ -1,4 +1,5 @@
 #include "engine/base/text.h"
+#include "importers/radiance/material_text.h"
 #include "materials/library.h"
 #include "plugins/cli/subcommands.h"
 
@@ -45,12 +46,15 @@ void print_json(const std::vector<const LibraryMaterial*>& chosen, std::ostream&
     for (const LibraryMaterial* entry : chosen) {
         const Spectrum reflectance = typical_reflectance(entry->material);
         const Spectrum radiance = emitted_radiance(entry->material);
+        std::string text;
+        scene_text::append_material(text, "void", entry->name, entry->material);
         list.push_back({{"name", entry->name},
                         {"type", type_name(entry->material)},
                         {"description", entry->description},
                         {"source", entry->source},
                         {"reflectance", {reflectance.r, reflectance.g, reflectance.b}},
-                        {"luminance_cd_per_m2", luminance_of(radiance).value}});
+                        {"luminance_cd_per_m2", luminance_of(radiance).value},
+                        {"text", text}});
     }
     out << list.dump(2) << '\n';
 }

@@ -10,7 +10,7 @@ import unittest
 
 import program
 import numpy as np
-from lightwell_bridge import colour, lamps, looks, sky, views
+from lightwell_bridge import colour, lamps, library, looks, sky, views
 from lightwell_bridge.scene_folder import SceneFolder
 
 
@@ -72,6 +72,24 @@ class Materials(InFolder):
     def engine(self, command, *more):
         return subprocess.run([os.environ["LIGHTWELL"], command, self.path / "scene.rad", *map(str, more)], check=True,
                               capture_output=True, text=True)
+
+
+class Library(InFolder):
+    def test_materials_of_the_library_are_those_that_the_program_lists(self):
+        known = library.read_library(os.environ["LIGHTWELL"])
+        self.assertGreater(len(known), 40)
+        self.assertFalse(library.add_library_material(self.folder, known["grey_50"], "Wall: grey"))
+        self.assertTrue(library.add_library_material(self.folder, known["led_panel_4000cd"], "LED"))
+        library.add_library_material(self.folder, known["glass_single_clear"], "Pane")
+        text = self.text()
+        self.assertIn("void plastic Wall:%20grey\n0\n0\n5 0.5 0.5 0.5 0 0\n", text)
+        self.assertAlmostEqual(colour.luminous(self.numbers("light", "LED")) * 179, 4000, places=6)
+        self.assertEqual(known["glass_single_clear"].type, "glass")
+
+    def test_an_engine_that_is_none_gives_a_sentence(self):
+        for engine in ("/nowhere/lightwell", "/bin/false", "/bin/echo"):
+            with self.assertRaisesRegex(ValueError, f"{engine} does not list its materials"):
+                library.read_library(engine)
 
 
 class Lamps(InFolder):
