@@ -9,6 +9,8 @@ namespace {
 
 /// Differences are relative to the value, and to no less than this share of the mean.
 constexpr double least_level = 0.01;
+/// Plain paths of each checked value to begin with.
+constexpr int first_paths = 16 * replicates;
 
 /// The part of a mean that is not likely to be noise.
 /// Source  James, Stein 1961, the positive part
@@ -39,6 +41,17 @@ BiasEstimate bias_of(const std::vector<Checked>& points)
     bias.standard_error = std::sqrt(std::max(squares - sum * sum / n, 0.0)) / level;
     bias.spread = std::sqrt(std::max(squares - noise, 0.0) / n) / (level / n);
     return bias;
+}
+
+BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, double most_paths)
+{
+    BiasCheck check;
+    for (int paths = first_paths;; paths *= 4) {
+        check.points = measure(paths);
+        check.whole = bias_of(check.points);
+        if (check.whole.standard_error <= wanted || 4.0 * paths * static_cast<double>(check.points.size()) > most_paths)
+            return check;
+    }
 }
 
 LocalBias::LocalBias(const BiasEstimate& whole, const std::vector<Checked>& points) : points_(points)

@@ -15,9 +15,9 @@ constexpr std::size_t pilot_sensors = 64;
 constexpr int pilot_paths = 8 * pilot_samples;
 /// From this number on, sensors share records of ambient light.
 constexpr std::size_t many_sensors = 2000;
-/// Sensors checked against plain path tracing, and paths at each.
+/// Sensors checked against plain path tracing, and the most paths that takes, as a share of all.
 constexpr std::size_t checked_sensors = 32;
-constexpr int check_paths = 16 * replicates;
+constexpr double check_share = 0.5;
 
 SurfacePlace receiver_of(const Sensor& sensor, double size_m)
 {
@@ -198,6 +198,26 @@ double finer_deep(double deep_accuracy, double shared, double accuracy)
     return std::max(last_deep * accuracy, deep_accuracy * std::clamp(excess * excess, 1.0 / 16, 0.5));
 }
 
+/// Adds the bias to expect of each value, by plain path tracing at a few sensors.
+void add_bias(GridResult& result, const SensorTask& plain, int threads, Teller& teller)
+{
+    const std::size_t step = step_for(plain.places.size(), checked_sensors);
+    const auto measure = [&](int paths) {
+        const Some checks = measure_some(plain, paths, step, threads, teller);
+        std::vector<Checked> points;
+        for (std::size_t k = 0; k < checks.values.size(); ++k)
+            points.push_back(
+                {result.values[k * step].value, checks.values[k], checks.errors[k], plain.places[k * step].position});
+        return points;
+    };
+    const double all_paths = static_cast<double>(result.samples) * static_cast<double>(plain.places.size());
+    const BiasCheck check = check_bias(measure, result.median_relative_error, check_share * all_paths);
+    result.bias = check.whole;
+    const LocalBias local(check.whole, check.points);
+    for (std::size_t i = 0; i < plain.places.size(); ++i)
+        result.biases.push_back(Illuminance{local.at(plain.places[i].position, result.values[i].value)});
+}
+
 } // namespace
 
 GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& settings, const Progress& progress) const
@@ -255,17 +275,8 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     result.mean_standard_error = Illuminance{all.mean_error};
     result.median_relative_error = median_relative(all.values, all.errors);
     if (!plain) {
-        const std::size_t step = step_for(receivers.size(), checked_sensors);
         Teller check(progress, "check, grid " + grid.name, checked_sensors);
-        const SensorTask plain_task{parts_->tracer, receivers, mix_bits(settings.seed), nullptr};
-        const Some checks = measure_some(plain_task, check_paths, step, settings.threads, check);
-        std::vector<Checked> points;
-        for (std::size_t k = 0; k < checks.values.size(); ++k)
-            points.push_back({all.values[k * step], checks.values[k], checks.errors[k], receivers[k * step].position});
-        result.bias = bias_of(points);
-        const LocalBias local(result.bias, points);
-        for (std::size_t i = 0; i < receivers.size(); ++i)
-            result.biases.push_back(Illuminance{local.at(receivers[i].position, all.values[i])});
+        add_bias(result, {parts_->tracer, receivers, mix_bits(settings.seed), nullptr}, settings.threads, check);
     }
     fixed_rays += rays.next();
     result.work = ambient.work();

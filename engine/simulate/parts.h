@@ -5,6 +5,7 @@
 #include "engine/simulate/simulate.h"
 
 #include <chrono>
+#include <functional>
 #include <mutex>
 
 /// \file What the drivers for pictures and grids share; nothing outside engine/simulate includes it.
@@ -92,6 +93,15 @@ struct Checked {
     Point place = {}; ///< of the sensor, m, or the pixel, in pixels
 };
 BiasEstimate bias_of(const std::vector<Checked>& points);
+
+struct BiasCheck {
+    std::vector<Checked> points;
+    BiasEstimate whole;
+};
+/// Four times the paths, from 16 in each replicate, until the mean bias is known as well as `wanted` (relative), or
+/// until the next step would take more than `most_paths` in all.
+/// @param  measure  the checked values, each by so many plain paths
+BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, double most_paths);
 
 /// The bias to expect of each value: the mean one, and what the checked values nearby show beyond it, both less the
 /// part that noise of the check explains. 0 where the check cannot tell a bias from noise.

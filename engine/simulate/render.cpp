@@ -12,7 +12,8 @@ namespace {
 /// The pilot run looks at an even lattice of pixels, as many as tell the median to a few percent; the check against
 /// plain path tracing at fewer, with more paths.
 constexpr int pilot_columns = 24, pilot_rows = 16, check_columns = 8, check_rows = 6;
-constexpr int check_paths = 16 * replicates;
+/// The most paths that the check takes, as a share of all.
+constexpr double check_share = 1.0 / 16;
 /// Records of ambient light are looked for at every so many pixels, then between them.
 constexpr int first_stride = 32, last_stride = 4;
 /// They are used only where so large a share of the pixels shows the same surface as the next one: leaves and needles
@@ -196,29 +197,31 @@ double median_relative_error(const Picture& picture)
     return median_relative(luminance, error);
 }
 
-/// Adds the channel "bias.Y" to the picture. @return  the estimate for the whole
-BiasEstimate check_bias(const PixelTask& plain, const Tile& wanted, Picture& picture, int threads, Teller& teller)
+/// Adds the channel "bias.Y" to the picture, and the estimate for the whole.
+void add_bias(PictureResult& result, const PixelTask& plain, const Tile& wanted, int threads, Teller& teller)
 {
-    const Lattice lattice = measure_lattice(plain, wanted, check_columns, check_rows, check_paths, threads, teller);
-    std::vector<Checked> points;
-    for (std::size_t i = 0; i < lattice.values.size(); ++i) {
-        const auto at = [&](const char* channel) {
-            return picture.at(channel, lattice.x[i] - wanted.x, lattice.y[i] - wanted.y);
-        };
-        const Point place{lattice.x[i] - wanted.x + 0.0, lattice.y[i] - wanted.y + 0.0, 0};
-        points.push_back(
-            {luminance_of({at("R"), at("G"), at("B")}).value, lattice.values[i], lattice.errors[i], place});
-    }
-    const BiasEstimate whole = bias_of(points);
-    const LocalBias local(whole, points);
+    Picture& picture = result.picture;
+    const auto luminance_at = [&](int x, int y) {
+        return luminance_of({picture.at("R", x, y), picture.at("G", x, y), picture.at("B", x, y)}).value;
+    };
+    const auto measure = [&](int paths) {
+        const Lattice lattice = measure_lattice(plain, wanted, check_columns, check_rows, paths, threads, teller);
+        std::vector<Checked> points;
+        for (std::size_t i = 0; i < lattice.values.size(); ++i) {
+            const int x = lattice.x[i] - wanted.x, y = lattice.y[i] - wanted.y;
+            points.push_back({luminance_at(x, y), lattice.values[i], lattice.errors[i], {x + 0.0, y + 0.0, 0}});
+        }
+        return points;
+    };
+    const double all_paths = static_cast<double>(result.samples) * picture.width * picture.height;
+    const BiasCheck check = check_bias(measure, result.median_relative_error, check_share * all_paths);
+    result.bias = check.whole;
+    const LocalBias local(check.whole, check.points);
     std::vector<float>& channel = picture.add_channel("bias.Y");
     for (int y = 0, i = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x, ++i) {
-            const auto at = [&](const char* name) { return picture.at(name, x, y); };
-            const double luminance = luminance_of({at("R"), at("G"), at("B")}).value;
-            channel[static_cast<std::size_t>(i)] = static_cast<float>(local.at({x + 0.0, y + 0.0, 0}, luminance));
-        }
-    return whole;
+        for (int x = 0; x < picture.width; ++x, ++i)
+            channel[static_cast<std::size_t>(i)] =
+                static_cast<float>(local.at({x + 0.0, y + 0.0, 0}, luminance_at(x, y)));
 }
 
 } // namespace
@@ -282,8 +285,8 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     result.median_relative_error = median_relative_error(result.picture);
     if (!plain) {
         Teller check(progress, "check, view " + view.name, check_columns * check_rows);
-        result.bias = check_bias({camera, parts_->tracer, settings.width, settings.height, mix_bits(settings.seed)},
-                                 wanted, result.picture, settings.threads, check);
+        add_bias(result, {camera, parts_->tracer, settings.width, settings.height, mix_bits(settings.seed)}, wanted,
+                 settings.threads, check);
     }
     result.work.fixed_rays += rays.next();
     result.report = ambient.report();
