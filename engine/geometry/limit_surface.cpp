@@ -323,6 +323,7 @@ void Refinement::write(LimitSurface& result)
             const Direction normal = normalized(cross(sample.along_u, sample.along_v));
             mesh.triangles.push_back(corner(piece.points[i], normal == Vec3{} || !is_finite(normal) ? flat : normal));
         }
+        result.faces.push_back(piece.face);
     }
     result.largest_deviation_m = largest_deviation_m_;
     result.reached_tolerance = reached_;
@@ -379,12 +380,16 @@ void check_cage(const SubdivisionCage& cage, double chord_tolerance_m, const std
 }
 
 /// The cage without faces that name a point twice, which have no inside.
-SubdivisionCage without_collapsed_faces(const SubdivisionCage& cage, std::size_t& left_out)
+/// @param numbers  of the faces that are kept
+SubdivisionCage without_collapsed_faces(const SubdivisionCage& cage, std::vector<std::uint32_t>& numbers)
 {
     SubdivisionCage kept = cage;
     kept.face_sizes.clear();
     kept.corners.clear();
     kept.holes.clear();
+    std::vector<bool> is_hole(cage.face_sizes.size(), false);
+    for (const std::uint32_t hole : cage.holes)
+        is_hole[hole] = true;
     std::size_t first = 0;
     for (std::uint32_t face = 0; face < cage.face_sizes.size(); ++face) {
         const std::uint32_t size = cage.face_sizes[face];
@@ -392,12 +397,11 @@ SubdivisionCage without_collapsed_faces(const SubdivisionCage& cage, std::size_t
         std::vector<std::uint32_t> sorted(begin, begin + size);
         std::sort(sorted.begin(), sorted.end());
         if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) {
-            if (std::find(cage.holes.begin(), cage.holes.end(), face) != cage.holes.end())
+            if (is_hole[face])
                 kept.holes.push_back(static_cast<std::uint32_t>(kept.face_sizes.size()));
             kept.face_sizes.push_back(size);
             kept.corners.insert(kept.corners.end(), begin, begin + size);
-        } else {
-            ++left_out;
+            numbers.push_back(face);
         }
         first += size;
     }
@@ -410,7 +414,9 @@ LimitSurface limit_surface(const SubdivisionCage& cage, double chord_tolerance_m
 {
     check_cage(cage, chord_tolerance_m, place);
     LimitSurface result;
-    const SubdivisionCage good = without_collapsed_faces(cage, result.faces_left_out);
+    std::vector<std::uint32_t> numbers;
+    const SubdivisionCage good = without_collapsed_faces(cage, numbers);
+    result.faces_left_out = cage.face_sizes.size() - numbers.size();
     if (good.face_sizes.empty())
         return result;
     CageFaces faces(good, place);
@@ -418,6 +424,8 @@ LimitSurface limit_surface(const SubdivisionCage& cage, double chord_tolerance_m
     Refinement refinement(good, faces, chord_tolerance_m);
     refinement.run();
     refinement.write(result);
+    for (std::uint32_t& face : result.faces)
+        face = numbers[face];
     return result;
 }
 

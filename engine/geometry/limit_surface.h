@@ -36,6 +36,7 @@ struct SubdivisionCage {
 /// A limit surface as triangles, and what was done to get there.
 struct LimitSurface {
     Mesh mesh;                        ///< with normals; corners on creases stand twice, at the same place
+    std::vector<std::uint32_t> faces; ///< for each triangle, the face of the cage that it is a part of
     double largest_deviation_m = 0;   ///< of triangles from the surface, at the places tried
     bool reached_tolerance = true;    ///< false: the bound on the number of triangles came first
     std::size_t faces_left_out = 0;   ///< without three different corners

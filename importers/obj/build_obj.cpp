@@ -1,8 +1,7 @@
 #include "importers/obj/build_obj.h"
 
-#include "engine/base/box.h"
 #include "engine/base/text.h"
-#include "engine/geometry/triangulate.h"
+#include "engine/geometry/face_shape.h"
 #include "importers/obj/corner_index.h"
 
 #include <algorithm>
@@ -16,19 +15,10 @@
 namespace lightwell {
 namespace {
 
-/// Corners may leave the plane of their face by this share of the face's diameter: files with four decimals do so.
-constexpr double planar_tolerance = 1e-4;
-/// Area below this share of the squared diameter is rounding error of double, not a surface.
-constexpr double zero_area_tolerance = 1e-14;
 /// Corner normals that differ by less are the same normal.
 constexpr double same_normal = 1e-6;
 /// A common normal this near to the face's own is the face's own, written with three or four decimals.
 constexpr double face_normal_tolerance = 1e-3;
-/// Cutting ears takes time that grows with the cube of the corners at worst: 1024 corners take about a second.
-constexpr std::size_t most_corners_for_ears = 1024;
-/// Ears of an outline that does not cross itself cover its area within rounding; a crossing one misses far more.
-constexpr double covered_area_tolerance = 1e-9;
-
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 /// The triangles of one set of names, with shared corners.
@@ -43,60 +33,8 @@ struct MeshInProgress {
 struct Outline {
     std::vector<Point> points;
     std::vector<ObjCorner> corners;
-    Vec3 area; ///< area vector, m^2
-    double diameter_m = 0;
-    double deviation_m = 0; ///< largest distance of a corner from the mean plane
-
-    bool has_area() const { return length(area) > zero_area_tolerance * diameter_m * diameter_m; }
-    bool planar() const { return deviation_m <= planar_tolerance * diameter_m; }
+    FaceShape shape;
 };
-
-void fan(std::size_t count, Triangles& triangles)
-{
-    triangles.clear();
-    for (std::uint32_t i = 1; i + 1 < count; ++i)
-        triangles.push_back({0, i, i + 1});
-}
-
-Vec3 triangle_area(const std::vector<Point>& points, const std::array<std::uint32_t, 3>& corners)
-{
-    const Point& a = points[corners[0]];
-    return 0.5 * cross(points[corners[1]] - a, points[corners[2]] - a);
-}
-
-/// Cuts a quadrangle along its shorter diagonal, unless a corner points inwards.  @return false when one does
-bool cut_quad(const Outline& outline, Triangles& triangles)
-{
-    const std::vector<Point>& p = outline.points;
-    if (length(p[2] - p[0]) <= length(p[3] - p[1]))
-        triangles.assign({{0, 1, 2}, {0, 2, 3}});
-    else
-        triangles.assign({{0, 1, 3}, {1, 2, 3}});
-    constexpr std::uint32_t corners[4][3] = {{0, 1, 2}, {1, 2, 3}, {2, 3, 0}, {3, 0, 1}};
-    for (const auto& [a, b, c] : corners)
-        if (!(dot(triangle_area(p, {a, b, c}), outline.area) > 0))
-            return false;
-    return true;
-}
-
-/// Cuts an outline that is not planar ear by ear as seen along its area vector; one that crosses itself, or has too
-/// many corners for that, becomes a fan from its first corner.
-void cut(const Outline& outline, Triangles& triangles)
-{
-    const std::vector<Point>& points = outline.points;
-    const std::size_t count = points.size();
-    if (count == 3 || count > most_corners_for_ears || !outline.has_area())
-        return fan(count, triangles);
-    if (count == 4 && cut_quad(outline, triangles))
-        return;
-    triangles = triangulate(points.data(), count);
-    Vec3 covered;
-    for (const auto& triangle : triangles)
-        covered += triangle_area(points, triangle);
-    const double missed = 1 - dot(covered, outline.area) / dot(outline.area, outline.area);
-    if (!(std::fabs(missed) <= covered_area_tolerance))
-        fan(count, triangles);
-}
 
 /// Stable over re-import: the number of the `f` statement in the file.
 std::string face_name(std::uint32_t number)
@@ -172,16 +110,12 @@ void ObjBuilder::take_outline(const ObjFace& face)
 {
     outline_.points.clear();
     outline_.corners.clear();
-    Box box;
-    Vec3 sum;
     for (std::uint32_t i = face.first; i < face.first + face.count; ++i) {
         const Point& point = points_[static_cast<std::size_t>(file_.corners[i].point)];
         if (!outline_.points.empty() && point == outline_.points.back())
             continue;
         outline_.points.push_back(point);
         outline_.corners.push_back(file_.corners[i]);
-        box.extend(point);
-        sum += point - points_[static_cast<std::size_t>(file_.corners[face.first].point)];
     }
     while (outline_.points.size() > 1 && outline_.points.front() == outline_.points.back()) {
         outline_.points.pop_back();
@@ -189,23 +123,15 @@ void ObjBuilder::take_outline(const ObjFace& face)
     }
     if (outline_.points.size() < face.count)
         repeated_.add(face.line);
-    outline_.area = polygon_area_vector(outline_.points.data(), outline_.points.size());
-    outline_.diameter_m = box.diagonal();
-    outline_.deviation_m = 0;
-    if (outline_.points.size() == 3)
-        return;
-    const Direction front = normalized(outline_.area);
-    const Point middle = outline_.points.empty() ? Point{} : outline_.points[0] + sum / static_cast<double>(face.count);
-    for (const Point& point : outline_.points)
-        outline_.deviation_m = std::fmax(outline_.deviation_m, std::fabs(dot(point - middle, front)));
+    outline_.shape = face_shape(outline_.points);
 }
 
 void ObjBuilder::add_face(const ObjFace& face)
 {
     take_outline(face);
-    const bool enough = outline_.points.size() >= 3, has_area = enough && outline_.has_area();
+    const bool enough = outline_.points.size() >= 3, has_area = enough && outline_.shape.has_area();
     const bool with_normals = has_area && smooth(face);
-    if (has_area && !with_normals && outline_.planar()) {
+    if (has_area && !with_normals && outline_.shape.planar()) {
         imported_.scene.root.add_polygon(outline_.points, modifier_of(face.state), face_name(face.number));
         imported_.ledger.made("face", layer_of(file_.states[face.state]));
         return;
@@ -219,15 +145,15 @@ void ObjBuilder::add_face(const ObjFace& face)
     }
     if (!has_area)
         crossing_.add(face.line);
-    else if (!outline_.planar())
+    else if (!outline_.shape.planar())
         warped_.add(face.line);
-    worst_deviation_m_ = std::fmax(worst_deviation_m_, outline_.deviation_m);
+    worst_deviation_m_ = std::fmax(worst_deviation_m_, outline_.shape.deviation_m);
 }
 
 /// True when the corner normals say something that the plane of the face does not.
 bool ObjBuilder::smooth(const ObjFace& face)
 {
-    const Direction front = normalized(outline_.area);
+    const Direction front = normalized(outline_.shape.area);
     double spread = 0, from_front = 0, from_back = 0;
     for (const ObjCorner& corner : outline_.corners) {
         if (corner.normal < 0)
@@ -267,12 +193,11 @@ void ObjBuilder::add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& 
                              bool with_normals)
 {
     constexpr std::uint32_t not_yet = std::numeric_limits<std::uint32_t>::max();
-    const double least_area_m2 = zero_area_tolerance * outline_.diameter_m * outline_.diameter_m;
     mesh_points_.assign(outline_.points.size(), not_yet);
-    cut(outline_, triangles_);
+    cut_face(outline_.points, outline_.shape, triangles_);
     bool any = false;
     for (const auto& triangle : triangles_) {
-        if (!(length(triangle_area(outline_.points, triangle)) > least_area_m2))
+        if (!(length(triangle_area(outline_.points, triangle)) > outline_.shape.least_area_m2()))
             continue;
         const auto [entry, fresh] = meshes.try_emplace(face.state);
         if (fresh)

@@ -11,8 +11,8 @@
 namespace lightwell::scene_text {
 namespace {
 
-constexpr std::string_view surface_types[] = {"polygon", "sphere", "bubble", "cone", "cup",     "cylinder",
-                                              "tube",    "ring",   "source", "mesh", "instance"};
+constexpr std::string_view surface_types[] = {"polygon", "sphere", "bubble", "cone", "cup",      "cylinder",
+                                              "tube",    "ring",   "source", "mesh", "instance", "subdivision"};
 constexpr std::string_view material_types[] = {"plastic", "metal", "trans", "dielectric", "glass",
                                                "mirror",  "light", "illum", "glow",       "spotlight"};
 constexpr std::string_view pattern_types[] = {"brightfunc", "brightdata", "brighttext", "colorfunc",

@@ -77,7 +77,7 @@ SceneReader::Xform SceneReader::parse_one_xform(const std::vector<std::string>& 
             continue;
         if (word != "-n" && word != "-m")
             throw InputError{place, fmt::format("option {} is not known or not modelled yet", word),
-                             "use -n -m -f -t -rx -ry -rz -s -mx -my -mz -i -a"};
+                             "use -n -m -f -t -rx -ry -rz -s -mx -my -mz -affine -i -a"};
         if (next == words.size())
             throw InputError{place, word + " is followed by nothing", "give the name after it"};
         (word == "-n" ? xform.name : xform.modifier) = words[next++];

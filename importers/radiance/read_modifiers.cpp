@@ -127,6 +127,9 @@ std::shared_ptr<const PlaceFunction> SceneReader::pattern_function(const OpenFil
                              begin != words.size() ? fmt::format("\"{}\" is no transform", words[begin])
                                                    : "an array (-a) makes more than one copy",
                              "after the words of a pattern come -t -rx -ry -rz -s -mx -my -mz -i or nothing"};
+        if (!(similarity_scale(placements.front().map) > 0))
+            throw InputError{place, "the transform of a pattern scales x, y and z differently",
+                             "patterns are turned, moved and scaled as a whole"};
         return placements.front().map;
     };
     return patterns_.read(request);

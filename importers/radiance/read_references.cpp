@@ -1,4 +1,3 @@
-#include "importers/radiance/mesh_text.h"
 #include "importers/radiance/scene_reader.h"
 
 #include <cstdlib>
@@ -41,20 +40,6 @@ fs::path text_of_compiled(const fs::path& name)
     return text;
 }
 
-/// The one placement of an `instance` or `mesh` line.
-Affine only_placement(const Primitive& primitive, const std::string& place)
-{
-    const std::vector<std::string> words(primitive.words.begin() + 1, primitive.words.end());
-    std::size_t next = 0;
-    const std::vector<Placement> placements = read_placements(words, next, place);
-    if (next != words.size())
-        throw InputError{place, fmt::format("\"{}\" is no transform", words[next]),
-                         "use -t -rx -ry -rz -s -mx -my -mz -i"};
-    if (placements.size() != 1)
-        throw InputError{place, "an array (-a) makes more than one copy", "use !xform for arrays"};
-    return placements.front().map;
-}
-
 } // namespace
 
 std::optional<fs::path> SceneReader::find_quietly(const fs::path& wanted, const OpenFile& file) const
@@ -85,6 +70,19 @@ fs::path SceneReader::find(const std::string& name, const OpenFile& file, const 
                  : "put it beside the file that names it, into the working folder or on RAYPATH"};
 }
 
+Affine only_placement(const Primitive& primitive, const std::string& place)
+{
+    const std::vector<std::string> words(primitive.words.begin() + 1, primitive.words.end());
+    std::size_t next = 0;
+    const std::vector<Placement> placements = read_placements(words, next, place);
+    if (next != words.size())
+        throw InputError{place, fmt::format("\"{}\" is no transform", words[next]),
+                         "use -t -rx -ry -rz -s -mx -my -mz -affine -i"};
+    if (placements.size() != 1)
+        throw InputError{place, "an array (-a) makes more than one copy", "use !xform for arrays"};
+    return placements.front().map;
+}
+
 void SceneReader::add_instance(OpenFile& file, const Primitive& primitive, Target target)
 {
     const std::string place = file.words.place(primitive);
@@ -104,6 +102,13 @@ void SceneReader::add_instance(OpenFile& file, const Primitive& primitive, Targe
     target.part.add_instance({prototype, map, {}}, decoded_name(primitive.name));
 }
 
+std::uint32_t SceneReader::add_prototype(Part part)
+{
+    scene_.prototypes.push_back(std::move(part));
+    prototype_changes_.emplace_back(false, false);
+    return static_cast<std::uint32_t>(scene_.prototypes.size() - 1);
+}
+
 std::uint32_t SceneReader::prototype_of_file(const fs::path& path, OpenFile& file, const std::string& place)
 {
     const fs::path key = fs::weakly_canonical(path);
@@ -114,11 +119,7 @@ std::uint32_t SceneReader::prototype_of_file(const fs::path& path, OpenFile& fil
     // Like a compiled scene it knows only its own names.
     Scope scope;
     read_file(path, &file, place, {part, scope});
-    const auto index = static_cast<std::uint32_t>(scene_.prototypes.size());
-    scene_.prototypes.push_back(std::move(part));
-    prototype_changes_.emplace_back(false, false);
-    file_prototypes_[key] = index;
-    return index;
+    return file_prototypes_[key] = add_prototype(std::move(part));
 }
 
 std::uint32_t SceneReader::with_modifier(std::uint32_t prototype, ModifierId modifier)
@@ -132,54 +133,10 @@ std::uint32_t SceneReader::with_modifier(std::uint32_t prototype, ModifierId mod
             surface.modifier = modifier;
     for (Instance& instance : part.instances)
         instance.prototype = with_modifier(instance.prototype, modifier);
-    const auto index = static_cast<std::uint32_t>(scene_.prototypes.size());
-    scene_.prototypes.push_back(std::move(part));
-    prototype_changes_.emplace_back(false, false);
+    const std::uint32_t index = add_prototype(std::move(part));
+    if (const auto file = origins_.mesh_files.find(prototype); file != origins_.mesh_files.end())
+        origins_.mesh_files[index] = file->second;
     return remade_prototypes_[key] = index;
-}
-
-std::shared_ptr<const Mesh> SceneReader::mesh(const fs::path& path)
-{
-    std::shared_ptr<const Mesh>& known = meshes_[fs::weakly_canonical(path)];
-    if (!known)
-        known = std::make_shared<const Mesh>(read_mesh_text(path));
-    return known;
-}
-
-void SceneReader::add_mesh(OpenFile& file, const Primitive& primitive, Target target)
-{
-    const std::string place = file.words.place(primitive);
-    if (primitive.words.empty())
-        throw InputError{place, "no file name", "a mesh has the words FILE and a transform"};
-    const ModifierId modifier = usable(file, primitive, file.last_meaning);
-    if (modifier == void_modifier)
-        throw InputError{place, "a mesh made of `void` takes the materials of its file, which is not modelled yet",
-                         "give it a modifier"};
-    const std::string name(primitive.words[0]);
-    const fs::path path = find(name, file, place);
-    if (path.extension() != ".obj")
-        throw InputError{place, fmt::format("\"{}\" is no mesh file that is read", name),
-                         "name an .obj, or the .rtm beside which the .obj stands"};
-    const Affine map = only_placement(primitive, place);
-    if (map == Affine{})
-        target.part.add_mesh(mesh(path), modifier, decoded_name(primitive.name));
-    else
-        target.part.add_instance({prototype_of_mesh(path, moved_patterns(modifier, inverse(map), place)), map, {}},
-                                 decoded_name(primitive.name));
-}
-
-std::uint32_t SceneReader::prototype_of_mesh(const fs::path& path, ModifierId modifier)
-{
-    const std::pair key(fs::weakly_canonical(path), modifier);
-    if (const auto known = mesh_prototypes_.find(key); known != mesh_prototypes_.end())
-        return known->second;
-    Part part;
-    part.name = path.stem().string();
-    part.add_mesh(mesh(path), modifier, part.name);
-    const auto index = static_cast<std::uint32_t>(scene_.prototypes.size());
-    scene_.prototypes.push_back(std::move(part));
-    prototype_changes_.emplace_back(false, false);
-    return mesh_prototypes_[key] = index;
 }
 
 } // namespace lightwell::scene_text

@@ -2,6 +2,7 @@
 
 #include "engine/base/files.h"
 #include "engine/base/text.h"
+#include "importers/radiance/kept_meshes.h"
 #include "importers/radiance/material_text.h"
 #include "importers/radiance/radiance.h"
 #include "importers/radiance/surface_text.h"
@@ -14,7 +15,14 @@ namespace lightwell {
 
 Scene read_radiance(const std::filesystem::path& file, Report& report)
 {
-    return scene_text::SceneReader(file, report).read();
+    KeptMeshes kept;
+    SceneOrigins origins;
+    return read_radiance(file, report, kept, origins);
+}
+
+Scene read_radiance(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins)
+{
+    return scene_text::SceneReader(file, report, kept, origins).read();
 }
 
 namespace scene_text {
@@ -45,14 +53,18 @@ bool is_compiled(std::string_view text)
 
 } // namespace
 
-SceneReader::SceneReader(const std::filesystem::path& file, Report& report)
-    : first_file_(file), report_(report), table_(scene_)
+SceneReader::SceneReader(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins)
+    : first_file_(file), report_(report), kept_(kept), origins_(origins), table_(scene_)
 {
 }
 
 Scene SceneReader::read()
 {
+    origins_ = {};
+    kept_.state().begin_reading();
     read_file(first_file_, nullptr, first_file_.string(), {scene_.root, scope_, true});
+    kept_.state().end_reading();
+    origins_.objects.resize(scene_.root.surfaces.size());
     give_back_memory(scene_.root);
     return std::move(scene_);
 }
@@ -83,7 +95,10 @@ void SceneReader::read_file(const std::filesystem::path& path, const OpenFile* f
             break;
         if (next == Words::Next::primitive) {
             file.words.read(primitive);
+            const std::size_t before = scene_.root.surfaces.size();
             read_primitive(file, primitive, target);
+            if (&target.part == &scene_.root)
+                note_object(before);
         } else if (next == Words::Next::comment) {
             read_comment(file, file.words.comment(), target);
         } else {
@@ -92,6 +107,15 @@ void SceneReader::read_file(const std::filesystem::path& path, const OpenFile* f
             file.last_known = false;
         }
     }
+}
+
+void SceneReader::note_object(std::size_t first_surface)
+{
+    if (!object_.empty()) {
+        origins_.objects.resize(first_surface);
+        origins_.objects.resize(scene_.root.surfaces.size(), object_);
+    }
+    object_.clear();
 }
 
 void SceneReader::read_primitive(OpenFile& file, Primitive& primitive, Target target)
@@ -118,11 +142,11 @@ void SceneReader::read_primitive(OpenFile& file, Primitive& primitive, Target ta
         file.last_known = true;
     }
     const ModifierId modifier = usable(file, primitive, file.last_meaning);
-    if (modifier == void_modifier && primitive.type != "mesh") {
+    if (modifier == void_modifier && primitive.type != "mesh" && primitive.type != "subdivision") {
         report_.add(Finding::ignored, file.words.place(primitive), "surface made of `void` left out");
         return;
     }
-    if (primitive.type == "mesh")
+    if (primitive.type == "mesh" || primitive.type == "subdivision")
         add_mesh(file, primitive, target);
     else
         add_surface(target.part, primitive, modifier, file.words, report_);
@@ -134,8 +158,12 @@ void SceneReader::read_comment(OpenFile& file, std::string_view comment, Target 
         return;
     const std::vector<std::string_view> fields = split(comment, " \t");
     const std::string place = file.words.place(file.words.offset());
-    if (fields[0] == "#@from" && fields.size() == 2 && target.own_part) {
-        target.part.name = decoded_name(fields[1]);
+    if (fields[0] == "#@from" && fields.size() == 2) {
+        const bool root = &target.part == &scene_.root;
+        if (root)
+            object_ = decoded_name(fields[1]);
+        if (target.own_part && (!root || target.part.surfaces.empty()))
+            target.part.name = decoded_name(fields[1]);
     } else if (fields[0] == "#@view" && fields.size() >= 2 && target.first_file) {
         const char* const words = fields[1].data() + fields[1].size();
         View view = parse_view(std::string(words, comment.data() + comment.size()), place);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "importers/radiance/modifier_table.h"
+#include "importers/radiance/ply_part.h"
+#include "importers/radiance/radiance.h"
 #include "importers/radiance/transform_words.h"
 #include "importers/radiance/words.h"
 #include "materials/patterns/pattern_reader.h"
@@ -15,7 +17,7 @@ namespace lightwell::scene_text {
 /// Reads one scene: the first file and every file that it refers to.
 class SceneReader {
 public:
-    SceneReader(const std::filesystem::path& file, Report& report);
+    SceneReader(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins);
     Scene read();
 
 private:
@@ -59,6 +61,8 @@ private:
 
     void read_file(const std::filesystem::path& path, const OpenFile* from, const std::string& place, Target target);
     void read_primitive(OpenFile& file, Primitive& primitive, Target target);
+    /// What `#@from` named is where the surfaces of the primitive after it come from.
+    void note_object(std::size_t first_surface);
     void read_comment(OpenFile& file, std::string_view comment, Target target);
     void read_grid(const std::string& place, const std::vector<std::string_view>& fields);
 
@@ -81,8 +85,14 @@ private:
     void add_mesh(OpenFile& file, const Primitive& primitive, Target target);
     std::uint32_t prototype_of_file(const std::filesystem::path& path, OpenFile& file, const std::string& place);
     std::uint32_t prototype_of_mesh(const std::filesystem::path& path, ModifierId modifier);
+    std::uint32_t add_prototype(Part part);
     std::uint32_t with_modifier(std::uint32_t prototype, ModifierId modifier);
     std::shared_ptr<const Mesh> mesh(const std::filesystem::path& path);
+    void add_ply(OpenFile& file, const Primitive& primitive, const std::filesystem::path& path, Target target);
+    std::vector<ModifierId> ply_modifiers(const PlyPart& built, OpenFile& file, const Primitive& primitive,
+                                          Target target);
+    std::uint32_t prototype_of_ply(const std::shared_ptr<const PlyPart>& built, const std::vector<ModifierId>& ids,
+                                   const std::string& place);
     std::filesystem::path find(const std::string& name, const OpenFile& file, const std::string& place) const;
     std::optional<std::filesystem::path> find_quietly(const std::filesystem::path& wanted, const OpenFile& file) const;
 
@@ -103,6 +113,8 @@ private:
 
     std::filesystem::path first_file_;
     Report& report_;
+    KeptMeshes& kept_;
+    SceneOrigins& origins_;
     Scene scene_;
     ModifierTable table_;
     Scope scope_;
@@ -112,9 +124,15 @@ private:
     std::map<std::filesystem::path, std::uint32_t> file_prototypes_;
     std::map<std::pair<std::filesystem::path, ModifierId>, std::uint32_t> mesh_prototypes_;
     std::map<std::pair<std::uint32_t, ModifierId>, std::uint32_t> remade_prototypes_;
+    std::map<std::pair<std::shared_ptr<const PlyPart>, std::vector<ModifierId>>, std::uint32_t> ply_prototypes_;
+    std::set<const PlyPart*> ply_noted_; ///< whose notes are in the report
+    std::string object_;                 ///< that the next surface of the root comes from
     std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
     std::map<std::vector<std::filesystem::path>, std::vector<std::unique_ptr<Fragment>>> fragments_;
     std::size_t expanded_ = 0; ///< surfaces that transforms have copied
 };
+
+/// The one placement of an `instance`, `mesh` or `subdivision` line.
+Affine only_placement(const Primitive& primitive, const std::string& place);
 
 } // namespace lightwell::scene_text

@@ -67,6 +67,10 @@ private:
                 throw InputError{place_, "-s is 0, expected a scale that is not zero", "leave the object out instead"};
             return Affine::scale(factor);
         }
+        if (word == "-affine") {
+            ++next_;
+            return rows(word);
+        }
         if (word.size() != 3 || word[0] != '-' || word[2] < 'x' || word[2] > 'z')
             return std::nullopt;
         const int axis = word[2] - 'x';
@@ -80,6 +84,16 @@ private:
         Vec3 factors{1, 1, 1};
         factors[axis] = -1;
         return Affine::scale(factors);
+    }
+
+    /// Three rows of four numbers: what x, y and z of the image are made of.
+    Affine rows(const std::string& word)
+    {
+        Affine map;
+        for (int row = 0; row < 3; ++row)
+            for (Vec3* column : {&map.x, &map.y, &map.z, &map.translation})
+                (*column)[row] = number(word);
+        return map;
     }
 
     double number(const std::string& after)

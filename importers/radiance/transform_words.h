@@ -14,8 +14,8 @@ struct Placement {
     std::string array_index; ///< "" without arrays, else "2" or "2.0": the indices of the arrays, outermost first
 };
 
-/// Reads `-t x y z`, `-rx -ry -rz degrees`, `-s factor`, `-mx -my -mz`, `-i count`, `-a count` from words[begin]
-/// until the first word that is none of these.
+/// Reads `-t x y z`, `-rx -ry -rz degrees`, `-s factor`, `-mx -my -mz`, `-i count`, `-a count`, `-affine` and
+/// three rows of four numbers from words[begin] until the first word that is none of these.
 /// @param begin  moved past the words read
 /// @throws InputError for a missing or bad number, a zero scale, or more than ten million placements
 std::vector<Placement> read_placements(const std::vector<std::string>& words, std::size_t& begin,
