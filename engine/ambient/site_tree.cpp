@@ -10,6 +10,9 @@ namespace {
 constexpr std::size_t few_sites = 6;
 constexpr double most_repetition = 4;
 constexpr int deepest = 24;
+/// Nor one of less than this share of the size of all that reach into it: sites that lie on one another have a common
+/// outline, which no splitting resolves.
+constexpr double smallest_node = 0.2;
 
 /// Half the size of the box that holds a site's ellipse, and places a little off its plane.
 Vec3 half_extent(const AmbientSite& site)
@@ -49,7 +52,10 @@ void SiteTree::split(std::uint32_t node, const Vec3& middle, double half, const 
 {
     std::vector<Reaching> parts[8];
     std::size_t total = 0;
-    const bool may_split = reaching.size() > few_sites && depth < deepest;
+    double smallest = infinity;
+    for (const Reaching& r : reaching)
+        smallest = std::min(smallest, max_abs(r.high - r.low));
+    const bool may_split = reaching.size() > few_sites && depth < deepest && 2 * half > smallest_node * smallest;
     for (std::uint32_t k = 0; may_split && k < 8; ++k) {
         const Vec3 low{k & 1 ? middle.x : middle.x - half, k & 2 ? middle.y : middle.y - half,
                        k & 4 ? middle.z : middle.z - half};

@@ -108,6 +108,21 @@ TEST(SiteTree, ManySitesInOnePlaceDoNotSplitForEver)
     EXPECT_EQ(visited(tree, sites[0].position + Vec3{1, 0, 0}).size(), 0u);
 }
 
+/// The outline that they have in common is a surface: it crosses four times as many nodes at each level.
+TEST(SiteTree, SmallSitesOnOneAnotherInALargeSceneDoNotSplitForEver)
+{
+    std::vector<AmbientSite> sites = random_sites(100, 1, {});
+    const Point place = sites.front().position;
+    sites.front().reach_m[0] = sites.front().reach_m[1] = 1e-2;
+    sites.insert(sites.end(), 20, sites.front());
+    SiteTree tree;
+    tree.build(sites); // would take hours
+    std::size_t clustered = 0;
+    for (const std::uint32_t site : visited(tree, place))
+        clustered += site == 0 || site >= 100;
+    EXPECT_EQ(clustered, 21u);
+}
+
 TEST(SiteTree, AnEmptyTreeAndPlacesFarAwayOrNowhereFindNothing)
 {
     SiteTree tree;
