@@ -29,13 +29,13 @@ class LampSettings(bpy.types.PropertyGroup):
     kelvin: FloatProperty(name="Colour temperature (K)", min=0, max=25000,
                           description="Hue of a black body of this temperature, for example 3000 for warm white. 0: the "
                                       "colour of the lamp alone")
-    ies: StringProperty(name="IES file", subtype="FILE_PATH",
-                        description="Measured distribution of the luminaire")
 
 
 class CollectionSettings(bpy.types.PropertyGroup):
     use: StringProperty(name="Lightwell material", description="A material of Lightwell's library for everything in this "
                         "collection. Empty: the objects' own materials")
+    objects: IntProperty(description="How many objects renders draw of it, when it was last counted")
+    faces: IntProperty(description="And their faces")
 
 
 class ObjectSettings(bpy.types.PropertyGroup):

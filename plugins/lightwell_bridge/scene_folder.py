@@ -51,8 +51,8 @@ class SceneFolder:
         self._define(name, _primitive(modifier, kind, name, words, numbers))
 
     def alias(self, layer, material):
-        """What stands in a face's place for layer and material means this material."""
-        self._define(layer, f"void alias {names.encoded(layer)} {names.encoded(material)}\n")
+        """What stands in a face's place for layer and material means this material, with its pattern (`inherit`)."""
+        self._define(layer, f"inherit alias {names.encoded(layer)} {names.encoded(material)}\n")
 
     def knows(self, name):
         return name in self._known

@@ -55,6 +55,12 @@ def render(request):
 
 
 def main():
+    if sys.argv[1:2] == ["materials"]:
+        print("[]")
+        return
+    if sys.argv[1:2] == ["--version"]:
+        print("lightwell 0.0.1")
+        return
     if FAKE == "mute":
         sys.stdin.read()
         return

@@ -10,7 +10,7 @@ import unittest
 
 import program
 import numpy as np
-from lightwell_bridge import colour, lamps, library, looks, sky, views
+from lightwell_bridge import colour, exr, lamps, library, looks, ply, sky, views
 from lightwell_bridge.scene_folder import SceneFolder
 
 
@@ -62,6 +62,23 @@ class Materials(InFolder):
         self.folder.text(sky.uniform_text((1, 1, 1)), light=True)
         self.folder.save()
         self.engine("render", "--view", "v", "--size", "16x16", "--samples", "4", "-o", self.path / "v.exr")
+
+    def test_a_picture_lies_over_the_texture_coordinates_once_in_each_unit_square(self):
+        pixels = np.array([[0.1, 0.2, 0.3, 0.4], [0.5, 0.6, 0.7, 0.8]])  # twice as wide as high
+        picture = self.folder.texture("tiles", exr.to_bytes({c: np.kron(pixels, np.ones((8, 8))) for c in "RGB"}), ".exr")
+        looks.add_look(self.folder, looks.Look("Tiles", roughness=1, picture=picture, picture_aspect=2.0))
+        self.folder.alias("Floor: Tiles", "Tiles")
+        square = ply.PlyMesh.of_faces([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0)], [[0, 1, 2, 3]],
+                                      uv=[(0, 0), (2, 0), (2, 2), (0, 2)])
+        self.folder.mesh("Floor: Tiles", "floor", self.folder.part("floor", square))
+        self.folder.text(sky.uniform_text((1, 1, 1)), light=True)
+        self.folder.view("v", "-vtl -vp 1 1 1 -vd 0 0 -1 -vu 0 1 0 -vh 2 -vv 2")
+        self.folder.save()
+        self.engine("render", "--view", "v", "--size", "16x16", "--samples", "64", "-o", self.path / "v.exr")
+        seen = exr.read(self.path / "v.exr")[1]["R"]
+        wanted = np.tile(np.kron(pixels, np.ones((4, 2))), (2, 2))
+        inner = np.tile(np.kron(np.ones((2, 4)), [[0, 0], [1, 1], [1, 1], [0, 0]]), (2, 2)).astype(bool)
+        self.assertLess(np.abs(seen - wanted)[inner].max(), 0.05)
 
     def test_transmission_mixture_with_an_emitter_is_said(self):
         notes = looks.add_look(self.folder, looks.Look("Lamp", mixed=[(0.5, looks.Look("", emission=(1, 1, 1), strength=2)),

@@ -73,7 +73,7 @@ class Folder(unittest.TestCase):
 
     def test_a_scene_is_written_in_the_order_in_which_it_is_read(self):
         text = self.folder().save().read_text()
-        self.assertIn("void plastic Oak\n0\n0\n5 0.4 0.3 0.2 0 0\nvoid alias Furniture:%20Oak Oak\n", text)
+        self.assertIn("void plastic Oak\n0\n0\n5 0.4 0.3 0.2 0 0\ninherit alias Furniture:%20Oak Oak\n", text)
         self.assertIn("#@from Furniture/Desk%205\nFurniture:%20Oak mesh Desk%205\n14 parts/Desk", text)
         self.assertIn(" -affine 1 0 0 5 0 1 0 0 0 0 1 0\n0\n0\n", text)
         self.assertIn("#@grid plane 1 1 0.25\n#@grid-sensor 0 0 0.8 0 0 1\n#@grid-cells 0\n", text)

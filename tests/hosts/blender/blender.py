@@ -21,7 +21,10 @@ sys.path[:0] = [str(ROOT / "plugins")]
 
 
 class InBlender(unittest.TestCase):
-    """`self.blender(script, ...)` runs a script of this folder inside and returns what it saved as answer.json."""
+    """`self.blender(script, ...)` runs a script of this folder inside and returns what it saved as answer.json.
+
+    `fails`: Blender may end with a status, as it does after a render with an error.
+    """
 
     @classmethod
     def setUpClass(cls):
