@@ -34,6 +34,9 @@ class Display:
         """One value a face of the object's own mesh: a float attribute, a colour attribute and the material."""
         if obj.type != "MESH" or len(obj.data.polygons) != len(lux) or obj.data.library is not None:
             return False
+        if obj.name in self.state["objects"]:
+            _colour_mesh(obj.data, np.asarray(lux, dtype=float), self.top)
+            return True
         kept = obj.data
         self.state["objects"][obj.name] = {
             "mesh": kept.name, "fake_user": kept.use_fake_user,

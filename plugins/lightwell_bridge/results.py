@@ -54,7 +54,7 @@ class GridLight:
     cells: list = field(default_factory=list)
 
     def summary(self):
-        """mean, min, max, uniformity (minimum/mean), error: one standard error of the mean, taken as independent."""
+        """mean, min, max, uniformity (minimum/mean), error: one standard error of the mean, at most."""
         lux = np.asarray(self.lux, dtype=float)
         lux = lux[np.isfinite(lux)]
         if not len(lux):
@@ -62,33 +62,32 @@ class GridLight:
         mean, error = float(lux.mean()), np.asarray(self.error, dtype=float)
         return {"mean": mean, "min": float(lux.min()), "max": float(lux.max()),
                 "uniformity": float(lux.min()) / mean if mean > 0 else 0.0,
-                "error": float(np.sqrt(np.nansum(error ** 2))) / len(lux), "points": len(lux)}
+                "error": float(np.nansum(error)) / len(lux), "points": len(lux)}
 
 
 def mean_of(faces, side):
-    """Mean over faces by area; errors of faces are taken as independent."""
-    area = weighted = squares = 0.0
+    """(m2, lx, error): mean over faces by area. Errors add as they are, since faces share ambient light: it is at most that."""
+    area = weighted = errors = 0.0
     for face in faces:
         lux, error = getattr(face, side), getattr(face, f"{side}_error")
         if face.area > 0 and math.isfinite(lux):
             area += face.area
             weighted += face.area * lux
-            squares += (face.area * (error if math.isfinite(error) else 0.0)) ** 2
-    return (area, weighted / area, math.sqrt(squares) / area) if area > 0 else (0.0, math.nan, math.nan)
+            errors += face.area * (error if math.isfinite(error) else 0.0)
+    return (area, weighted / area, errors / area) if area > 0 else (0.0, math.nan, math.nan)
 
 
 def by_layer(objects):
     """{layer: (m2, lx, error)}: each object by the side where more light falls."""
     layers = {}
     for light in objects:
-        layers.setdefault(light.layer, []).append(light.mean())
+        area, lux, error = light.mean()
+        if area > 0:
+            layers.setdefault(light.layer, []).append((area, lux, error))
     result = {}
     for layer, means in sorted(layers.items()):
         area = sum(m[0] for m in means)
-        used = [m for m in means if m[0] > 0]
-        if area > 0:
-            result[layer] = (area, sum(m[0] * m[1] for m in used) / area,
-                             math.sqrt(sum((m[0] * m[2]) ** 2 for m in used)) / area)
+        result[layer] = (area, *(sum(m[0] * m[i] for m in means) / area for i in (1, 2)))
     return result
 
 

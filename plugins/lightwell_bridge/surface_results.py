@@ -16,28 +16,32 @@ def read(path, objects):
     try:
         with open(path, encoding="utf-8") as file:
             parts = json.load(file)["parts"]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        lights = [ObjectLight(part["object"], objects[part["object"]][0], _faces_of(part, objects[part["object"]][1]))
+                  for part in parts if part["object"] in objects]
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"{path}: no results of surfaces: {error!r}") from error
-    lights, notes = [], []
-    for part in parts:
-        source = part["part"]
-        if source not in objects:
-            continue
-        layer, count = objects[source]
-        faces = [FaceLight(0.0, math.nan, math.nan, math.nan, math.nan) for _ in range(count)]
-        for face in part["faces"]:
-            if 0 <= face["face"] < count:
-                faces[face["face"]] = FaceLight(face["area_m2"], *(_number(face[side][what]) for side in ("front", "back")
-                                                                   for what in ("lx", "error_lx")))
-        lights.append(ObjectLight(source, layer, faces))
+    notes = []
     missing = sorted(set(objects) - {light.source for light in lights})
     if missing:
         notes.append(f"no results for {len(missing)} objects, for example \"{missing[0]}\"")
     return lights, notes
 
 
-def _number(value):
-    return math.nan if value is None else float(value)
+def _faces_of(part, count):
+    """One entry a face as written; a limit surface has one value for all of its cage, kept with the first face."""
+    faces = [FaceLight(0.0, math.nan, math.nan, math.nan, math.nan) for _ in range(count)]
+    for face in part["faces"]:
+        if 0 <= face.get("face", -1) < count:
+            faces[face["face"]] = _light(face)
+    if all(face.area == 0 for face in faces):
+        whole = _light(part)
+        faces = [FaceLight(0.0, whole.front, 0.0, whole.back, 0.0) for _ in range(count)]
+        faces[:1] = [whole]
+    return faces
+
+
+def _light(entry):
+    return FaceLight(*(float(entry[name]) for name in ("area_m2", "front", "front_error", "back", "back_error")))
 
 
 def mean_of_drawings(drawings):

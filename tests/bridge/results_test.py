@@ -7,16 +7,16 @@ import unittest
 
 import program
 import numpy as np
-from lightwell_bridge import false_colour, grids, legend_font, ply, results
+from lightwell_bridge import false_colour, grids, legend_font, ply, results, surface_results
 from lightwell_bridge.results import FaceLight, GridLight, ObjectLight
 
 
 class Means(unittest.TestCase):
-    def test_means_are_weighted_by_area_and_errors_add_as_squares(self):
+    def test_means_are_weighted_by_area_and_errors_add_as_they_are(self):
         light = ObjectLight("Room/Wall", "Room", [FaceLight(3, 100, 4, 1, 0), FaceLight(1, 500, 12, 1, 0)])
         area, lux, error = light.mean()
         self.assertEqual((area, lux), (4, 200))
-        self.assertAlmostEqual(error, math.hypot(12, 12) / 4)
+        self.assertEqual(error, (3 * 4 + 12) / 4)
         self.assertEqual(light.side(), "front")
 
     def test_the_side_with_more_light_counts_and_faces_without_a_value_do_not(self):
@@ -28,9 +28,9 @@ class Means(unittest.TestCase):
                    ObjectLight("c", "M", [FaceLight(2, 50, 0, 0, 0)])]
         self.assertEqual({k: v[:2] for k, v in results.by_layer(objects).items()}, {"L": (4, 250), "M": (2, 50)})
         grid = GridLight("desk", [100, 200, 300], [3, 4, 0])
-        self.assertEqual(grid.summary(), {"mean": 200, "min": 100, "max": 300, "uniformity": 0.5, "error": 5 / 3, "points": 3})
+        self.assertEqual(grid.summary(), {"mean": 200, "min": 100, "max": 300, "uniformity": 0.5, "error": 7 / 3, "points": 3})
         text = results.report(objects, [grid], ["lamp \"x\""])
-        self.assertRegex(text, r"desk +200\.0 +1\.67 +100\.0 +300\.0 +0\.50")
+        self.assertRegex(text, r"desk +200\.0 +2\.33 +100\.0 +300\.0 +0\.50")
         self.assertIn("lamp \"x\"", text)
         self.assertIn("layer,L,L,4.0,250.0,0.0,,,", results.table(objects, [grid]))
 
@@ -44,6 +44,33 @@ class Means(unittest.TestCase):
                     continue
                 with self.assertRaisesRegex(ValueError, "g.csv: no results of a grid"):
                     results.read_grid_csv(path, "g")
+
+
+class Surfaces(unittest.TestCase):
+    def read(self, text, objects):
+        with tempfile.TemporaryDirectory() as place:
+            path = pathlib.Path(place) / "faces.json"
+            path.write_text(text)
+            return surface_results.read(path, objects)
+
+    def test_faces_come_back_under_their_object_and_number(self):
+        sides = '"area_m2": %g, "front": %g, "front_error": %g, "back": %g, "back_error": 0'
+        text = '{"parts": [{"object": "A/Tür", %s, "faces": [{"face": 2, %s}, {"face": 0, %s}]}, ' \
+               '{"object": "cage", %s, "faces": [{"id": "x", %s}]}, {"object": "lamp", %s, "faces": []}]}' % (
+                   sides % (3, 90, 1, 0), sides % (2, 120, 2, 5), sides % (1, 30, 1, 0), sides % (7, 40, 3, 9),
+                   sides % (7, 40, 3, 9), sides % (1, 1, 1, 1))
+        lights, notes = self.read(text, {"A/Tür": ("A", 3), "cage": ("B", 6), "gone": ("B", 1)})
+        self.assertEqual([(f.area, f.front) for f in lights[0].faces[::2]], [(1, 30), (2, 120)])
+        self.assertEqual(lights[0].mean(), (3, 90, 5 / 3))
+        self.assertEqual((lights[1].mean(), len(lights[1].lux())), ((7, 40, 3), 6))
+        self.assertEqual(lights[1].lux().tolist(), [40] * 6)
+        self.assertIn("\"gone\"", notes[0])
+        np.testing.assert_array_equal(surface_results.mean_of_drawings([lights[0], lights[0]]), [30, np.nan, 120])
+
+    def test_what_is_no_result_is_said(self):
+        for text in ("", "[]", '{"parts": 3}', '{"parts": [{}]}', '{"parts": [{"object": "a", "faces": [{"face": 0}]}]}'):
+            with self.assertRaisesRegex(ValueError, "faces.json: no results of surfaces"):
+                self.read(text, {"a": ("L", 1)})
 
 
 class Colours(unittest.TestCase):
