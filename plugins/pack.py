@@ -8,7 +8,7 @@ import zipfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 # Folder here, name of the package inside the zip.
-HOSTS = {"blender": "lightwell"}
+HOSTS = {"blender": "lightwell", "freecad": "Lightwell"}
 BRIDGE = "lightwell_bridge"
 LEFT_OUT = shutil.ignore_patterns("__pycache__", "*.pyc", "tutorial*", "CMakeLists.txt")
 # The same bytes every time.

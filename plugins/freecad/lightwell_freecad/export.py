@@ -2,17 +2,21 @@
 
 import json
 import math
+import pathlib
 
 import numpy as np
 
+from lightwell_bridge import colour, sky as skies
+from lightwell_bridge.library import add_library_material
 from lightwell_bridge.ply import PlyMesh
 from lightwell_bridge.scene_folder import SceneFolder
 
-from . import faces, grids, optics, walk
+from . import curved, faces, grids, optics, walk
 from .appearance import Appearance
+from .layer_map import LayerMap
 
 MANIFEST = "freecad.json"
-DEFAULT_TOLERANCE_MM = 0.2
+DEFAULT_TOLERANCE_MM = 1.0
 # Rounding of a rotation, per entry: below it a transform counts as one that keeps shapes.
 SIMILAR = 1e-9
 
@@ -20,7 +24,8 @@ SIMILAR = 1e-9
 class Exported:
     """What an export did.
 
-    objects   path -> {"owner", "label", "layer", "faces": [{"face", "part", "element", "kind", "area_m2", ...}]}
+    objects   path -> {"owner", "label", "subname", "layer", "faces"}; each face: its index in the owner's shape, the
+              `element` of the scene that stands for it, there `count` entries from `first` on, kind, areas, modifier
     notes     sentences: what was left out, assumed or only approximated, each with the object's label
     layers    name of a face's layer -> {"decided", "material", "faces", "area_m2"}
     """
@@ -34,25 +39,28 @@ class Exported:
                 "notes": self.notes}
 
 
-def export_document(document, folder_path, tolerance_mm=DEFAULT_TOLERANCE_MM, views=(), sky_text="", more_grids=()):
+def export_document(document, folder_path, tolerance_mm=DEFAULT_TOLERANCE_MM, views=(), sky=None, more_grids=(), rules=(), library=None):
     """Writes the folder; nothing in the document changes.
 
     @param views  pairs of a name and the words of a view
+    @param rules  pairs of a pattern for names of layers and a name in `library`, the engine's named materials
+    @param sky    of lightwell_bridge.sky; None: luminaires only
     @throws ValueError when there is nothing to export, or a tolerance that is no length
     """
     if not (math.isfinite(tolerance_mm) and tolerance_mm > 0):
         raise ValueError(f"the chord tolerance is {tolerance_mm} mm, expected more than 0")
-    return _Export(document, folder_path, tolerance_mm).run(views, sky_text, more_grids)
+    layer_map = LayerMap(rules, library or {})
+    return _Export(document, folder_path, tolerance_mm, layer_map).run(views, sky, more_grids)
 
 
 class _Export:
-    def __init__(self, document, folder_path, tolerance_mm):
-        self.document, self.tolerance_mm = document, tolerance_mm
+    def __init__(self, document, folder_path, tolerance_mm, layer_map):
+        self.document, self.tolerance_mm, self.layer_map = document, tolerance_mm, layer_map
         self.folder, self.result = SceneFolder(folder_path), Exported()
         self.appearance = Appearance(document)
         self.translated = {}
 
-    def run(self, views, sky_text, more_grids):
+    def run(self, views, sky, more_grids):
         placed = walk.placed_objects(self.document, lambda obj, why: self._note(obj.Label, f"left out: {why}"))
         for one in placed:
             try:
@@ -61,12 +69,13 @@ class _Export:
                 self._note(one.owner.Label, f"left out: {error}")
         if not self.result.objects:
             raise ValueError(f"\"{self.document.Label}\" has no visible object with a face: there is nothing to light")
+        self.layer_map.check()
         for grid in more_grids:
             self._grid(grid)
         for name, words in views:
             self.folder.view(name, words)
-        if sky_text:
-            self.folder.text(sky_text, light=True)
+        if sky is not None:
+            skies.add_sky(self.folder, sky)
         elif not self.result.lights:
             self.result.notes.append("There is no light: neither a luminaire nor a sky. Give an object lumens, or add a sky.")
         self.result.scene = self.folder.save()
@@ -91,7 +100,7 @@ class _Export:
         if not surfaces:
             raise ValueError("none of its faces can be translated")
         modifiers = self._modifiers(one, surfaces, keys, role)
-        record = {"owner": one.owner.Name, "label": one.owner.Label, "layer": one.layer, "faces": []}
+        record = _record_of(one)
         self._flat(one, surfaces, modifiers, matrix, record)
         self._round(one, surfaces, modifiers, matrix, record)
         self._analytic(one, surfaces, modifiers, matrix, record)
@@ -180,10 +189,10 @@ class _Export:
         self.folder.mesh(modifier, one.path, part, _in_metres(one.matrix), one.path)
         self.result.layers[modifier]["faces"] += len(mesh.sizes)
         self.result.layers[modifier]["area_m2"] += area
-        self.result.objects[one.path] = {
-            "owner": one.owner.Name, "label": one.owner.Label, "layer": one.layer, "mesh": True,
-            "faces": [{"face": 0, "element": one.path, "first": 0, "count": len(mesh.sizes), "kind": "mesh",
-                       "area_m2": area, "host_area_m2": area, "modifier": modifier}]}
+        record = _record_of(one)
+        record["faces"].append({"face": 0, "element": one.path, "first": 0, "count": len(mesh.sizes), "kind": "mesh",
+                                "area_m2": area, "host_area_m2": area, "modifier": modifier})
+        self.result.objects[one.path] = record
 
     # --- materials
 
@@ -198,18 +207,32 @@ class _Export:
             return self._light(one, area_m2)
         name = key.name + (" (two sheets)" if key.identity()[1] else "")
         if name not in self.result.layers:
-            kind, numbers = optics.material_of(key)
-            material = f"{name} as drawn"
-            self.folder.material(kind, material, numbers)
-            self.folder.alias(name, material)
-            self.result.layers[name] = {"decided": key.decided, "material": _in_words(kind, numbers), "faces": 0,
-                                        "area_m2": 0.0}
+            self.result.layers[name] = {"decided": key.decided, "material": self._bind(name, key), "faces": 0, "area_m2": 0.0}
         return name
+
+    def _bind(self, name, key):
+        """Defines what the name of a layer stands for; returns it in words."""
+        chosen = self.layer_map.material_for(key.name)
+        if chosen is not None:
+            emits = add_library_material(self.folder, chosen, chosen.name)
+            self.folder.alias(name, chosen.name)
+            if emits:
+                self.result.lights[name] = {"material": chosen.name}
+            return chosen.name
+        if key.rgb is None and key.decided.startswith("material"):
+            self.result.notes.append(f"Material \"{key.name}\" has no colour that can be read: taken as "
+                                     f"{100 * optics.DEFAULT_REFLECTANCE:.0f} % grey.")
+        kind, numbers = optics.material_of(key)
+        material = f"{name} as drawn"
+        self.folder.material(kind, material, numbers)
+        self.folder.alias(name, material)
+        return _in_words(kind, numbers)
 
     def _light(self, one, area_m2):
         lumens, kelvin = float(getattr(one.owner, "lw_lumens", 0.0)), float(getattr(one.owner, "lw_cct", 4000) or 4000)
         name = f"{one.path} (light)"
         if name not in self.result.layers:
+            self._check_photometry(one)
             rgb = optics.light_of(lumens, kelvin, area_m2)
             self.folder.material("light", name, rgb)
             self.result.lights[one.path] = {"lumens": lumens, "kelvin": kelvin, "area_m2": area_m2,
@@ -217,13 +240,23 @@ class _Export:
             self.result.layers[name] = {"decided": "luminaire", "material": f"light, {lumens:g} lm", "faces": 0, "area_m2": 0.0}
         return name
 
+    def _check_photometry(self, one):
+        file = getattr(one.owner, "lw_ies", "")
+        if file and not pathlib.Path(file).is_file():
+            raise ValueError(f"there is no photometric file {file}; correct lw_ies or clear it")
+        if file:
+            self._note(one.owner.Label, f"shines evenly: {file} is not used yet, only its lumens as typed")
+
     def _grid(self, grid):
         self.folder.grid(grid.name, grid.sensors, grid.rows, grid.columns, grid.spacing_m, grid.cells)
         self.result.grids[grid.name] = grid.facts()
 
 
+def _record_of(one):
+    return {"owner": one.owner.Name, "label": one.owner.Label, "subname": one.subname, "layer": one.layer, "faces": []}
+
+
 def _in_words(kind, numbers):
-    from lightwell_bridge import colour
     share = colour.luminous(numbers[:3])
     return f"glass, transmissivity {share:.2f}" if kind == "glass" else f"matt, {100 * share:.0f} %"
 
@@ -232,7 +265,6 @@ def _as_facets(surface, face, tolerance_mm):
     """For transforms under which a circle is none any more."""
     if surface.kind in ("polygon", "facets"):
         return surface
-    from . import curved
     if surface.kind == "ring":
         points, triangles = face.tessellate(tolerance_mm)
         normal = np.array(surface.numbers[3:6])

@@ -11,9 +11,10 @@ MOST_SENSORS = 1_000_000
 
 
 class Grid:
-    """Sensors at the centres of square cells, metres; rows follow the plane's second axis.
+    """Sensors at the centres of square cells, metres; row 0 is the highest along the plane's second axis, as in maps.
 
     cells   rows x columns numbers of sensors, -1 where a cell's centre is off the face
+    frame   upper left corner of the cells, the direction of columns, the direction of rows (down)
     owner   name of the document object it lies on
     """
 
@@ -22,9 +23,9 @@ class Grid:
         self.sensors, self.cells, self.frame = sensors, cells, frame
 
     def facts(self):
-        origin, along, up = self.frame
+        origin, along, down = self.frame
         return {"owner": self.owner, "rows": self.rows, "columns": self.columns, "spacing_m": self.spacing_m,
-                "cells": self.cells, "origin": list(origin), "along": list(along), "up": list(up),
+                "cells": self.cells, "origin": list(origin), "along": list(along), "down": list(down),
                 "sensors": [list(s[:3]) for s in self.sensors]}
 
 
@@ -56,7 +57,7 @@ def on_plane_face(face, name, owner, spacing_mm, offset_mm=0.0):
     point_type = type(face.Vertexes[0].Point)
     for row in range(rows):
         for column in range(columns):
-            place = (along * (starts[0] + (column + 0.5) * spacing_mm) + up * (starts[1] + (row + 0.5) * spacing_mm) +
+            place = (along * (starts[0] + (column + 0.5) * spacing_mm) + up * (starts[1] + (rows - row - 0.5) * spacing_mm) +
                      normal * depth)
             if not face.isInside(point_type(*place), 1e-4, True):
                 cells.append(-1)
@@ -65,8 +66,9 @@ def on_plane_face(face, name, owner, spacing_mm, offset_mm=0.0):
             sensors.append([*((place + normal * offset_mm) * METRES_PER_MM), *normal])
     if not sensors:
         raise ValueError(f"no sensor fits on it at a spacing of {spacing_mm} mm")
-    origin = (along * starts[0] + up * starts[1] + normal * (depth + offset_mm)) * METRES_PER_MM
-    return Grid(name, owner, rows, columns, spacing_mm * METRES_PER_MM, sensors, cells, (origin, along, up))
+    top = starts[1] + rows * spacing_mm
+    origin = (along * starts[0] + up * top + normal * (depth + offset_mm)) * METRES_PER_MM
+    return Grid(name, owner, rows, columns, spacing_mm * METRES_PER_MM, sensors, cells, (origin, along, -up))
 
 
 def _axes(normal):

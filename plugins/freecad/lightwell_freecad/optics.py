@@ -62,10 +62,8 @@ def material_of(key):
         return "plastic", (DEFAULT_REFLECTANCE,) * 3 + (0, 0)
     linear = [_linear(c) for c in key.rgb]
     if key.transmitted > 0:
-        strongest = max(max(linear), 1e-6)
         share = math.sqrt(key.transmitted) if key.closed else key.transmitted
-        hue = colour.from_rec709([c / strongest for c in linear])
-        return "glass", tuple(_transmissivity(min(share * c, 1.0)) for c in hue)
+        return "glass", (_transmissivity(min(share, 1.0)),) * 3
     return "plastic", tuple(min(c, HIGHEST_REFLECTANCE) for c in colour.from_rec709(linear)) + (0, 0)
 
 

@@ -14,13 +14,13 @@ class Placed:
 
     path     "LAYER/LABEL", unique; of an element "LAYER/LABEL/NUMBER"
     owner    the document object that a user sees and that gets results; leaf the one that has the geometry
+    subname  how the owner names the leaf: "" or "0." or "Group.Box."
     matrix   4 x 4, millimetres, from the leaf's own coordinates to the model's
-    shared   the geometry appears at other places too
     """
 
-    def __init__(self, path, owner, leaf, matrix, shared, layer, group):
-        self.path, self.owner, self.leaf, self.matrix = path, owner, leaf, matrix
-        self.shared, self.layer, self.group = shared, layer, group
+    def __init__(self, path, owner, leaf, subname, matrix, layer, group):
+        self.path, self.owner, self.leaf, self.subname = path, owner, leaf, subname
+        self.matrix, self.layer, self.group = matrix, layer, group
 
     def is_mesh(self):
         return self.leaf.isDerivedFrom("Mesh::Feature")
@@ -115,17 +115,17 @@ def _elements(obj, layer, names, skipped):
     base = _matrix_of_parents(obj)
     if not _is_link(obj):
         matrix = base @ _matrix((obj if obj.isDerivedFrom("Mesh::Feature") else obj.Shape).Placement.Matrix)
-        return [Placed(path, obj, obj, matrix, False, label, group)]
+        return [Placed(path, obj, obj, "", matrix, label, group)]
     leaves = list(_leaves(obj, "", skipped))
     found = []
-    for number, (leaf, matrix) in enumerate(leaves):
+    for number, (leaf, subname, matrix) in enumerate(leaves):
         own = path if len(leaves) == 1 else f"{path}/{number}"
-        found.append(Placed(own, obj, leaf, base @ matrix, True, label, group))
+        found.append(Placed(own, obj, leaf, subname, base @ matrix, label, group))
     return found
 
 
 def _leaves(link, subname, skipped, depth=0):
-    """(object with geometry, matrix) of everything that a link or array shows."""
+    """(object with geometry, its name below the link, matrix) of everything that a link or array shows."""
     if depth > 32:
         raise ValueError(f"\"{link.Label}\" leads to itself over links")
     obj = link if not subname else link.getSubObject(subname, retType=1)
@@ -141,7 +141,7 @@ def _leaves(link, subname, skipped, depth=0):
         below = below if not subname and _counts_elements(below) else []
     if not below:
         if _is_leaf(leaf):
-            yield leaf, _matrix(link.getSubObject(subname, retType=4)) @ _beyond(obj)
+            yield leaf, subname, _matrix(link.getSubObject(subname, retType=4)) @ _beyond(obj)
         elif subname == "":
             skipped(link, "what it links to has no face")
         return

@@ -1,16 +1,20 @@
 """What tests inside FreeCAD share: finding the packages and the fixtures, running, leaving."""
 
+import faulthandler
 import os
 import pathlib
 import sys
 import unittest
 
+faulthandler.enable()
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SHARED = pathlib.Path(os.environ.get("LIGHTWELL_SHARED") or ROOT.parent / "shared")
 BUILDING = SHARED / "fixtures" / "hosts" / "freecad_building" / "building.FCStd"
 
 for folder in (ROOT / "plugins", ROOT / "plugins" / "freecad", pathlib.Path(__file__).parent):
-    sys.path.insert(0, str(folder))
+    # An installed workbench is found by FreeCAD itself.
+    if folder.name == "freecad" and "tests" in folder.parts or "LIGHTWELL_INSTALLED" not in os.environ:
+        sys.path.insert(0, str(folder))
 
 
 def show_main_window():
@@ -20,11 +24,13 @@ def show_main_window():
 
 
 def run(*cases):
-    """Runs the cases (a name of one in LIGHTWELL_CASE picks it) and ends the host with their status."""
+    """Runs the cases (LIGHTWELL_CASE picks one: CLASS or CLASS.TEST) and ends the host with their status."""
     chosen = os.environ.get("LIGHTWELL_CASE")
     suite = unittest.TestSuite()
     for case in cases:
-        if not chosen or case.__name__ == chosen:
+        if chosen and chosen.startswith(case.__name__ + "."):
+            suite.addTest(case(chosen.partition(".")[2]))
+        elif not chosen or case.__name__ == chosen:
             suite.addTests(unittest.defaultTestLoader.loadTestsFromTestCase(case))
     result = unittest.TextTestRunner(stream=sys.stderr, verbosity=2).run(suite)
     sys.stdout.flush()
