@@ -108,19 +108,24 @@ TEST(SiteTree, ManySitesInOnePlaceDoNotSplitForEver)
     EXPECT_EQ(visited(tree, sites[0].position + Vec3{1, 0, 0}).size(), 0u);
 }
 
-/// The outline that they have in common is a surface: it crosses four times as many nodes at each level.
+/// What they have in common ends just above the middle of the tree, so that the nodes there, four times as many at each
+/// level, hold all of them and nothing else.
 TEST(SiteTree, SmallSitesOnOneAnotherInALargeSceneDoNotSplitForEver)
 {
-    std::vector<AmbientSite> sites = random_sites(100, 1, {});
-    const Point place = sites.front().position;
-    sites.front().reach_m[0] = sites.front().reach_m[1] = 1e-2;
-    sites.insert(sites.end(), 20, sites.front());
+    AmbientSite site;
+    site.normal = {0, 0, 1};
+    site.axis = {1, 0, 0};
+    std::vector<AmbientSite> sites;
+    for (const double corner : {-1.0, 1.0}) {
+        site.position = {corner, corner, corner};
+        sites.push_back(site);
+    }
+    site.reach_m[0] = site.reach_m[1] = 0.2;
+    site.position = {0.3, 0.3, 1e-9 - 0.15 * 0.2}; // 0.15: what a site's box has above it
+    sites.resize(20, site);
     SiteTree tree;
     tree.build(sites); // would take hours
-    std::size_t clustered = 0;
-    for (const std::uint32_t site : visited(tree, place))
-        clustered += site == 0 || site >= 100;
-    EXPECT_EQ(clustered, 21u);
+    EXPECT_EQ(visited(tree, site.position).size(), 18u);
 }
 
 TEST(SiteTree, AnEmptyTreeAndPlacesFarAwayOrNowhereFindNothing)
