@@ -32,6 +32,12 @@ bool close(const double* values, const double* errors, std::size_t count, double
 constexpr int probe_paths = 4;
 constexpr double most_off = 3;
 
+/// Paths through a pixel beside noise, as a multiple of the usual ones.
+constexpr int more_paths = 4;
+/// What counts as noise: a standard error of so many tolerances of the mean around; a difference of so large a part of
+/// it, where it is an edge that runs between the pixels looked at.
+constexpr double noisy = 4, edge = 1.0;
+
 } // namespace
 
 bool same_surface(const Sight& a, const Sight& b)
@@ -126,13 +132,48 @@ PixelValue value_of(const PixelResult& result, int samples)
     return value;
 }
 
+const PixelField::Pixel& PixelField::first(int x, int y)
+{
+    const std::int64_t key = static_cast<std::int64_t>(y) * task_.width + x;
+    const auto found = first_.find(key);
+    if (found != first_.end())
+        return found->second;
+    const Pixel pixel{value_of(task_.measure(x, y, samples_), samples_), task_.sight(x, y)};
+    return first_.emplace(key, pixel).first->second;
+}
+
+/// Asks the pixels of even places around, never the pixel itself.
+bool PixelField::beside_noise(int x, int y)
+{
+    double sum = 0, most_error = 0, low = infinity, high = 0;
+    int count = 0;
+    for (int v = (y - 1) / 2 * 2; v <= y + 2; v += 2)
+        for (int u = (x - 1) / 2 * 2; u <= x + 2; u += 2) {
+            if ((u == x && v == y) || u >= task_.width || v >= task_.height)
+                continue;
+            const PixelValue& value = first(u, v).value;
+            const double luminance = luminance_of({value[0], value[1], value[2]}).value;
+            sum += luminance;
+            low = std::min(low, luminance);
+            high = std::max(high, luminance);
+            most_error = std::max(most_error, static_cast<double>(value[luminance_error_at]));
+            ++count;
+        }
+    const double mean = sum / std::max(count, 1);
+    const bool between = x % 2 != 0 || y % 2 != 0;
+    return most_error > noisy * tolerance_ * mean || (between && high - low > edge * mean);
+}
+
 const PixelField::Pixel& PixelField::own(int x, int y)
 {
+    if (tolerance_ == 0 || !beside_noise(x, y))
+        return first(x, y);
     const std::int64_t key = static_cast<std::int64_t>(y) * task_.width + x;
     const auto found = own_.find(key);
     if (found != own_.end())
         return found->second;
-    return own_.emplace(key, Pixel{value_of(task_.measure(x, y, samples_), samples_), task_.sight(x, y)}).first->second;
+    const int samples = more_paths * samples_;
+    return own_.emplace(key, Pixel{value_of(task_.measure(x, y, samples), samples), task_.sight(x, y)}).first->second;
 }
 
 bool PixelField::interpolated(int x, int y, PixelValue& value)

@@ -120,6 +120,49 @@ TEST(Clipping, ShowsWhatLiesBetweenTheSpheresOfAFisheye)
     }
 }
 
+/// The slanted end of a luminous wall, at 8 paths a pixel, beside the share of each pixel that it fills. Four times the
+/// paths halve the error; what decides about them must not shift the mean.
+TEST(ImageSampling, AnEdgeHasMorePathsAndNoBias)
+{
+    const Simulation simulation = luminous([](Scene& scene) {
+        const ModifierId light = scene.add_material("light", Light{Spectrum::grey(10)});
+        scene.root.add_polygon({{-9, 4, -9}, {-1.3, 4, -9}, {1.1, 4, 9}, {-9, 4, 9}}, light, "wall");
+    });
+    View view;
+    view.horizontal = view.vertical = 60;
+    constexpr int size = 160, parts = 32;
+    const double half_m = 4 * std::tan(30 * radians_per_degree);
+    const auto filled = [&](int x, int y) {
+        int inside = 0;
+        for (int i = 0; i < parts * parts; ++i) {
+            const double across = (2 * (x + (i % parts + 0.5) / parts) / size - 1) * half_m;
+            const double up = (1 - 2 * (y + (i / parts + 0.5) / parts) / size) * half_m;
+            inside += across < -0.1 + up * 2.4 / 18;
+        }
+        return inside / static_cast<double>(parts * parts);
+    };
+    PictureSettings settings = settings_of(size, size, 8);
+    settings.accuracy = 0.05;
+    const Picture plain = simulation.render(view, settings).picture;
+    settings.unbiased = false;
+    const Picture finer = simulation.render(view, settings).picture;
+    double plain_squares = 0, squares = 0, sum = 0;
+    int count = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const double share = filled(x, y);
+            if (share < 0.01 || share > 0.99)
+                continue;
+            plain_squares += std::pow(plain.at("R", x, y) - 10 * share, 2);
+            squares += std::pow(finer.at("R", x, y) - 10 * share, 2);
+            sum += finer.at("R", x, y) - 10 * share;
+            ++count;
+        }
+    ASSERT_GT(count, size);
+    EXPECT_LT(std::sqrt(squares), 0.65 * std::sqrt(plain_squares));
+    EXPECT_LT(std::fabs(sum), 4 * std::sqrt(squares));
+}
+
 TEST(Region, HasTheBitsOfTheSamePixelsOfTheWhole)
 {
     const Simulation simulation = luminous([](Scene& scene) {

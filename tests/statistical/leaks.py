@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """No light where none can be, and the right light beside thin things.
 
-    leaks.py [SCENE ...] [--settings "--quality low;--quality medium;--quality high"] [--plain=--unbiased] [--samples 16384]
+    leaks.py [SCENE ...] [--settings "--quality draft;--quality normal;--quality fine"] [--plain=--unbiased] [--samples 16384]
              [--largest 0.1] [--pictures FOLDER] [--json FILE]
 
 Scenes of tests/scenes/leak_scenes.py. Inside a sealed box every value must be 0 exactly. Elsewhere each setting is compared with
