@@ -1,6 +1,7 @@
 """Simulations inside FreeCAD: with the engine, with one that behaves badly, and with documents that are hard to light."""
 
 import csv
+import json
 import math
 import os
 import pathlib
@@ -117,6 +118,19 @@ class WithEngine(InRoom):
         self.assertNotEqual(colours[floor], colours[outside])
         results.clear(self.project)
         self.assertEqual(content(self.document), self.before)
+
+    def test_means_of_faces_equal_a_run_of_the_command_line(self):
+        lights = {light.source: light for light in run.objects(self.project)}
+        scene, baked = run.session_of(self.document).folder / "scene" / "scene.rad", self.folder()
+        subprocess.run([ENGINE, "bake", str(scene), "--surface", "(no layer)", "--spacing", "0.5", "--accuracy", "5%",
+                        "-o", str(baked)], check=True, capture_output=True)
+        wanted = json.loads((baked / "maps.json").read_text())["layers"]["(no layer)"]["front"]["mean_lx"]
+        faces = lights["Room"].faces + lights["Column"].faces
+        area = sum(f.area for f in faces)
+        mean, error = (sum(f.area * getattr(f, k) for f in faces) / area for k in ("front", "front_error"))
+        self.assertGreater(wanted, 10)
+        self.assertLess(abs(mean - wanted), 3 * math.sqrt(2) * error)
+        self.assertLess(error, 0.1 * mean)
 
     def test_a_picture_stands_beside_the_model(self):
         plane = run.picture(self.project, "Eye")
