@@ -34,7 +34,8 @@ class JobPanel:
     def tick(self):
         going_on = self.job.poll()
         left = self.job.seconds_left
-        self.label.setText(self.job.text + (f", {left:.0f} s left" if left is not None and going_on else ""))
+        phase = f": {self.job.phase}" if self.job.phase else ""
+        self.label.setText(self.job.text + phase + (f", {left:.0f} s left" if left is not None and going_on else ""))
         self.bar.setValue(int(1000 * self.job.fraction))
         if going_on:
             return

@@ -8,6 +8,7 @@ from lightwell_bridge import layer_map as proposals, library
 from . import project as projects, results, run
 
 AS_DRAWN = "as drawn"
+LEAST_HEIGHT = 420
 
 
 class LayerPanel:
@@ -36,7 +37,11 @@ class LayerPanel:
                 item.setToolTip(f"{name}: {facts['decided']}; as drawn: {facts['material']}")
                 self.table.setItem(row, column, item)
             self.boxes[name] = self._box(row, facts, chosen.get(_pattern(name)))
-        self.table.resizeColumnsToContents()
+        self.table.verticalHeader().hide()
+        self.table.setMinimumHeight(LEAST_HEIGHT)
+        header = self.table.horizontalHeader()
+        for column in range(4):
+            header.setSectionResizeMode(column, QtGui.QHeaderView.Stretch if column < 2 else QtGui.QHeaderView.ResizeToContents)
         self.propose = QtGui.QPushButton("Propose for the rest")
         self.propose.setToolTip("Materials whose names fit the names of layers; what is chosen already stays")
         self.propose.clicked.connect(self.fill)
@@ -45,7 +50,7 @@ class LayerPanel:
 
     def _box(self, row, facts, chosen):
         box = QtGui.QComboBox()
-        box.setEditable(True)
+        box.setSizeAdjustPolicy(QtGui.QComboBox.AdjustToMinimumContentsLength)
         box.addItem(f"{AS_DRAWN} ({facts['material']})", "")
         for name, material in self.library.items():
             box.addItem(f"{name}: {material.description}", name)

@@ -146,14 +146,14 @@ def _wait(job, told):
 class Job:
     """One run: poll() carries it on without waiting and says whether it goes on.
 
-    fraction   0 to 1 of the present request; text what it is; seconds_left or None
+    fraction   0 to 1 of the present request; text what it is, phase where the engine is in it; seconds_left or None
     error      a sentence, once it has failed; stopped: it was told to end. In both cases the document is unchanged
     notes      sentences about what was assumed or left out
     """
 
     def __init__(self, project, wishes):
         self.project, self.wishes = project, list(wishes)
-        self.fraction, self.text, self.seconds_left = 0.0, "writing the scene", None
+        self.fraction, self.text, self.phase, self.seconds_left = 0.0, "writing the scene", "", None
         self.error, self.stopped, self.notes = "", False, []
         self.objects, self.grids, self.pictures = [], [], []
         self._work, self._request, self._cancelled_at = self._steps(), None, None
@@ -206,7 +206,7 @@ class Job:
             return
         if event["event"] == "progress":
             self.fraction = min(max(float(event.get("fraction") or 0), 0.0), 1.0)
-            self.seconds_left = event.get("seconds_left")
+            self.phase, self.seconds_left = str(event.get("phase") or ""), event.get("seconds_left")
         elif event["event"] == "error":
             raise Failed(sentence_of(event))
         elif event["event"] == "cancelled":

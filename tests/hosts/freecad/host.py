@@ -3,10 +3,13 @@
 import faulthandler
 import os
 import pathlib
+import subprocess
 import sys
 import unittest
 
-faulthandler.enable()
+# In a window FreeCAD puts its report view in the place of sys.stderr.
+ERRORS = open(2, "w", buffering=1, closefd=False)
+faulthandler.enable(ERRORS)
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SHARED = pathlib.Path(os.environ.get("LIGHTWELL_SHARED") or ROOT.parent / "shared")
 BUILDING = SHARED / "fixtures" / "hosts" / "freecad_building" / "building.FCStd"
@@ -23,6 +26,15 @@ def show_main_window():
     FreeCADGui.showMainWindow()
 
 
+def serves():
+    """Whether LIGHTWELL_ENGINE names an engine that speaks to hosts."""
+    engine = os.environ.get("LIGHTWELL_ENGINE")
+    if not engine:
+        return False
+    done = subprocess.run([engine, "serve"], input="", capture_output=True, text=True, timeout=60)
+    return '"hello"' in done.stdout
+
+
 def run(*cases):
     """Runs the cases (LIGHTWELL_CASE picks one: CLASS or CLASS.TEST) and ends the host with their status."""
     chosen = os.environ.get("LIGHTWELL_CASE")
@@ -32,8 +44,7 @@ def run(*cases):
             suite.addTest(case(chosen.partition(".")[2]))
         elif not chosen or case.__name__ == chosen:
             suite.addTests(unittest.defaultTestLoader.loadTestsFromTestCase(case))
-    result = unittest.TextTestRunner(stream=sys.stderr, verbosity=2).run(suite)
-    sys.stdout.flush()
-    sys.stderr.flush()
+    result = unittest.TextTestRunner(stream=ERRORS, verbosity=2).run(suite)
+    ERRORS.flush()
     # FreeCAD can crash while it takes its window down, after everything is done.
     os._exit(0 if result.wasSuccessful() and result.testsRun else 1)

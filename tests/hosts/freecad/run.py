@@ -29,9 +29,10 @@ def start(script, case, options, home):
     if program is None:
         print("skipped: FreeCAD is not installed (Debian: apt install freecad freecad-python3)")
         return SKIPPED
-    words = [program, str(pathlib.Path(__file__).parent / script)]
+    folder = pathlib.Path(__file__).parent
+    words = [program, str(folder / "start.py")]
     environment = dict(os.environ, LIGHTWELL_CASE=case, QTWEBENGINE_DISABLE_SANDBOX="1", PYTHONDONTWRITEBYTECODE="1",
-                       FREECAD_USER_HOME=home)
+                       FREECAD_USER_HOME=home, LIGHTWELL_SCRIPT=str(folder / script))
     if "--installed" in options:
         install(home)
         environment["LIGHTWELL_INSTALLED"] = "1"

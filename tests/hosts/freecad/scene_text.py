@@ -76,7 +76,7 @@ class Scene:
         for line in pathlib.Path(file).read_text().splitlines():
             if line.startswith("#@"):
                 self._mark(line.split())
-            elif line.strip() and not line.startswith("#"):
+            elif line.strip() and line[0] not in "#!":
                 words += line.split()
                 words = self._take(words)
         assert not words, words
