@@ -102,14 +102,17 @@ struct Triangle {
     Vec3 area;
 };
 
-SurfaceChart mesh_chart(const Mesh& mesh, double spacing_m, const Affine& to_world)
+SurfaceChart mesh_chart(const Mesh& mesh, const std::vector<std::uint32_t>& chosen, double spacing_m,
+                        const Affine& to_world)
 {
     const double turn = to_world.determinant() < 0 ? -0.5 : 0.5; // a mirrored map keeps the front where it was
     std::vector<Triangle> triangles;
     std::vector<std::vector<Point>> outlines;
     bool flat = true;
     Direction first{};
-    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    const std::size_t count = chosen.empty() ? mesh.triangles.size() / 3 : chosen.size();
+    for (std::size_t n = 0; n < count; ++n) {
+        const std::size_t i = 3 * (chosen.empty() ? n : chosen[n]);
         Triangle t{{to_world.point(mesh.points[mesh.triangles[i]]), to_world.point(mesh.points[mesh.triangles[i + 1]]),
                     to_world.point(mesh.points[mesh.triangles[i + 2]])},
                    {}};
@@ -154,38 +157,6 @@ SurfaceChart polygon_chart(const Part& part, const Polygon& polygon, double spac
     return flat_chart({corners}, normal, spacing_m);
 }
 
-SurfaceChart chart_of(const Part& part, const Surface& surface, double spacing_m, const Affine& to_world)
-{
-    const auto scaled = [&](SurfaceChart chart) {
-        const double scale = std::cbrt(std::fabs(to_world.determinant()));
-        scale_areas(chart, surface_area_m2(part, surface) * scale * scale);
-        return chart;
-    };
-    switch (surface.shape) {
-    case Shape::polygon:
-        return polygon_chart(part, part.polygons[surface.index], spacing_m, to_world);
-    case Shape::mesh:
-        return mesh_chart(*part.meshes[surface.index], spacing_m, to_world);
-    case Shape::ring: {
-        const Ring& ring = part.rings[surface.index];
-        return scaled(flat_chart({disc_outline(ring, to_world)}, transform_normal(to_world, ring.normal), spacing_m));
-    }
-    case Shape::sphere:
-    case Shape::bubble:
-        return scaled(sphere_chart(part.spheres[surface.index], surface.shape == Shape::bubble, spacing_m, to_world));
-    case Shape::cone:
-    case Shape::cylinder:
-    case Shape::cup:
-    case Shape::tube:
-        return scaled(cone_chart(part.cones[surface.index], surface.shape == Shape::cup || surface.shape == Shape::tube,
-                                 spacing_m, to_world));
-    case Shape::source:
-    case Shape::instance:
-        break;
-    }
-    return {};
-}
-
 class Walk {
 public:
     Walk(const Scene& scene, const std::string& layer, double spacing_m)
@@ -223,7 +194,7 @@ private:
         const std::string& name = scene_.modifiers[static_cast<std::size_t>(modifier)].name;
         if (!matches(layer_, name) && !matches(split_layer_, name))
             return;
-        SurfaceChart chart = chart_of(part, surface, spacing_m_, to_world);
+        SurfaceChart chart = surface_chart(part, surface, to_world, spacing_m_);
         if (chart.sensors.empty())
             return; // no area, no light
         texels_ += static_cast<double>(chart.sensors.size());
@@ -243,6 +214,39 @@ private:
 };
 
 } // namespace
+
+SurfaceChart surface_chart(const Part& part, const Surface& surface, const Affine& to_world, double spacing_m,
+                           const std::vector<std::uint32_t>& triangles)
+{
+    const auto scaled = [&](SurfaceChart chart) {
+        const double scale = std::cbrt(std::fabs(to_world.determinant()));
+        scale_areas(chart, surface_area_m2(part, surface) * scale * scale);
+        return chart;
+    };
+    switch (surface.shape) {
+    case Shape::polygon:
+        return polygon_chart(part, part.polygons[surface.index], spacing_m, to_world);
+    case Shape::mesh:
+        return mesh_chart(*part.meshes[surface.index], triangles, spacing_m, to_world);
+    case Shape::ring: {
+        const Ring& ring = part.rings[surface.index];
+        return scaled(flat_chart({disc_outline(ring, to_world)}, transform_normal(to_world, ring.normal), spacing_m));
+    }
+    case Shape::sphere:
+    case Shape::bubble:
+        return scaled(sphere_chart(part.spheres[surface.index], surface.shape == Shape::bubble, spacing_m, to_world));
+    case Shape::cone:
+    case Shape::cylinder:
+    case Shape::cup:
+    case Shape::tube:
+        return scaled(cone_chart(part.cones[surface.index], surface.shape == Shape::cup || surface.shape == Shape::tube,
+                                 spacing_m, to_world));
+    case Shape::source:
+    case Shape::instance:
+        break;
+    }
+    return {};
+}
 
 std::vector<SurfaceChart> surface_charts(const Scene& scene, const std::string& layer, double spacing_m)
 {

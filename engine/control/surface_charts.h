@@ -2,6 +2,7 @@
 
 #include "engine/scene/scene.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct SurfaceChart {
     std::vector<Sensor> sensors;  ///< in the surface, facing its front
     std::vector<double> areas_m2; ///< of the surface within each texel; they sum to its area
 };
+
+/// The chart of one surface in its place; id and layer are not set.
+/// @param triangles  of a mesh: only these; empty: all
+SurfaceChart surface_chart(const Part& part, const Surface& surface, const Affine& to_world, double spacing_m,
+                           const std::vector<std::uint32_t>& triangles = {});
 
 /// Charts of all surfaces whose layer matches, instances expanded, in the order of the scene.
 /// @param layer      glob for the modifier's name; a layer split by material (`A/oak`) matches as `A`

@@ -74,6 +74,7 @@ void AmbientBuild::build_deep(std::size_t count, const Start& start)
     const std::size_t paths = effort_.deep_paths;
     std::vector<std::vector<SurfacePlace>> found(paths);
     parallel_for(paths, effort_.deep.threads, [&](std::size_t i) {
+        effort_.deep.check();
         // Spread evenly over the items, whatever their number.
         PathRandom random(mix_bits(effort_.deep.seed, walk_salt), 0, static_cast<std::uint32_t>(i));
         const double where = random.one();

@@ -133,6 +133,7 @@ void build(AmbientBuild& ambient, const Sights& sights, const Techniques& techni
         const int rows = (sights.height - offset + stride - 1) / stride;
         std::vector<std::vector<AmbientCandidate>> of_row(static_cast<std::size_t>(std::max(rows, 0)));
         parallel_for(of_row.size(), threads, [&](std::size_t row) {
+            teller.check();
             for (int column = 0; column < columns; ++column)
                 sights.candidates(offset + column * stride, offset + static_cast<int>(row) * stride, of_row[row]);
         });

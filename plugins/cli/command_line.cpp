@@ -41,7 +41,7 @@ std::vector<std::string> join_values(const std::vector<std::string>& arguments)
     return joined;
 }
 
-Status parse_and_run(const std::vector<std::string>& arguments)
+Status parse_and_run(const std::vector<std::string>& arguments, const std::vector<AddSubcommand>& more)
 {
     Status status = Status::done;
     CLI::App app("Lighting simulation for CAD models: layers in, pictures and illuminance maps out.", "lightwell");
@@ -58,6 +58,8 @@ Status parse_and_run(const std::vector<std::string>& arguments)
     add_plan(app, status);
     add_run(app, status);
     add_validate(app, status);
+    for (const AddSubcommand add : more)
+        add(app, status);
     std::vector<std::string> words = join_values(arguments);
     std::reverse(words.begin(), words.end()); // CLI11 takes its words from the back
     try {
@@ -70,12 +72,12 @@ Status parse_and_run(const std::vector<std::string>& arguments)
 
 } // namespace
 
-int run_command_line(const std::vector<std::string>& arguments)
+int run_command_line(const std::vector<std::string>& arguments, const std::vector<AddSubcommand>& more)
 {
     Status status = Status::our_fault;
     try {
         remember_command(arguments);
-        status = parse_and_run(arguments);
+        status = parse_and_run(arguments, more);
         if (!std::cout.flush()) {
             std::cerr << "lightwell: standard output cannot be written\n";
             status = Status::bad_input;

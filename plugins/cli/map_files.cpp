@@ -7,6 +7,7 @@
 #include "engine/pictures/exr.h"
 #include "engine/pictures/false_colour.h"
 #include "engine/pictures/png.h"
+#include "plugins/cli/host_calls.h"
 #include "plugins/cli/options.h"
 #include "plugins/cli/provenance.h"
 #include "plugins/cli/terminal.h"
@@ -163,17 +164,23 @@ void check_map_files(const MapJob& job)
     }
 }
 
+GridResult measure_map(const Simulation& simulation, MapJob& job, const Progress& progress)
+{
+    const double start = process_cpu_seconds();
+    if (job.time_s > 0)
+        choose_work(simulation, job, progress);
+    GridResult result = simulation.illuminance(job.grid, job.settings, progress);
+    write_files(job, result, process_cpu_seconds() - start);
+    return result;
+}
+
 Status make_map(const Simulation& simulation, const MapJob& asked, std::ostream& out, std::ostream& err)
 {
     check_map_files(asked);
     MapJob job = asked;
     try {
         ProgressLine line(job.files.front().filename().string());
-        const double start = process_cpu_seconds();
-        if (job.time_s > 0)
-            choose_work(simulation, job, line.progress());
-        const GridResult result = simulation.illuminance(job.grid, job.settings, line.progress());
-        write_files(job, result, process_cpu_seconds() - start);
+        const GridResult result = measure_map(simulation, job, line.progress());
         err << result.report;
         std::string names;
         for (const std::filesystem::path& file : job.files)

@@ -8,6 +8,7 @@
 #include "engine/pictures/rgbe.h"
 #include "engine/scene/scene_hash.h"
 #include "engine/simulate/technique_names.h"
+#include "plugins/cli/host_calls.h"
 #include "plugins/cli/options.h"
 #include "plugins/cli/provenance.h"
 #include "plugins/cli/terminal.h"
@@ -89,17 +90,6 @@ PictureJob with_work(const Simulation& simulation, const PictureJob& asked, cons
     return job;
 }
 
-std::map<std::string, std::string> picture_header(const Simulation& simulation, const PictureJob& job)
-{
-    std::map<std::string, std::string> header = job.provenance;
-    header["VIEW"] = to_text(job.view);
-    header["software"] = program_version();
-    header["settings"] = settings_text(simulation, job);
-    header["seed"] = std::to_string(job.settings.seed);
-    header["units"] = channel_units;
-    return header;
-}
-
 PictureResult render_tiles(const Simulation& simulation, const PictureJob& job, GrowingPicture& growing,
                            ProgressLine& line)
 {
@@ -164,6 +154,17 @@ void fit_to_view(const View& view, PictureSettings& settings)
     const double height = std::fmin(settings.height, std::round(settings.width / aspect));
     settings.width = static_cast<int>(std::fmax(1, width));
     settings.height = static_cast<int>(std::fmax(1, height));
+}
+
+std::map<std::string, std::string> picture_header(const Simulation& simulation, const PictureJob& job)
+{
+    std::map<std::string, std::string> header = job.provenance;
+    header["VIEW"] = to_text(job.view);
+    header["software"] = program_version();
+    header["settings"] = settings_text(simulation, job);
+    header["seed"] = std::to_string(job.settings.seed);
+    header["units"] = channel_units;
+    return header;
 }
 
 Status make_picture(const Simulation& simulation, const PictureJob& asked, std::ostream& out, std::ostream& err)

@@ -7,6 +7,7 @@
 #include "importers/formats/formats.h"
 #include "importers/layers.h"
 #include "importers/radiance/radiance.h"
+#include "plugins/cli/host_calls.h"
 #include "plugins/cli/merge_scenes.h"
 
 #include <algorithm>
@@ -21,17 +22,6 @@ std::string names_of(const std::vector<Named>& list)
     for (const Named& entry : list)
         names += (names.empty() ? "\"" : ", \"") + entry.name + "\"";
     return names;
-}
-
-void require_light(const Scene& scene, const std::string& files)
-{
-    const bool emits = std::any_of(scene.modifiers.begin(), scene.modifiers.end(), [](const Modifier& modifier) {
-        const auto* material = std::get_if<Material>(&modifier.what);
-        return material != nullptr && is_emitter(*material) && !emitted_radiance(*material).is_black();
-    });
-    if (!emits)
-        throw InputError(files, "nothing in the scene emits light",
-                         "add a sky with its place and time, or map a layer to an emitting material");
 }
 
 /// The CAD files among the inputs, under one layer map.
@@ -61,6 +51,17 @@ void add_drawings(const SceneInputs& inputs, LitScene& lit)
 }
 
 } // namespace
+
+void require_light(const Scene& scene, const std::string& files)
+{
+    const bool emits = std::any_of(scene.modifiers.begin(), scene.modifiers.end(), [](const Modifier& modifier) {
+        const auto* material = std::get_if<Material>(&modifier.what);
+        return material != nullptr && is_emitter(*material) && !emitted_radiance(*material).is_black();
+    });
+    if (!emits)
+        throw InputError(files, "nothing in the scene emits light",
+                         "add a sky with its place and time, or map a layer to an emitting material");
+}
 
 bool is_scene_text(const std::filesystem::path& file)
 {
