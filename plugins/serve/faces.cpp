@@ -111,8 +111,8 @@ std::vector<Point> outline_of(const PlacedFace& face)
 double PlacedFace::area_m2() const
 {
     if (surface->shape == Shape::polygon) {
-        const std::vector<Point> corners = outline_of(*this);
-        return length(polygon_area_vector(corners.data(), corners.size()));
+        const std::vector<Point> outline = outline_of(*this);
+        return length(polygon_area_vector(outline.data(), outline.size()));
     }
     if (surface->shape == Shape::mesh) {
         double sum = 0;
