@@ -24,7 +24,8 @@ from trust_scenes import SCENES
 
 # Samples of a run: where a replicate's mean is nearly normal. Rare bright paths need more of them.
 SAMPLES = {"easy": 128, "bright_walls": 512, "small_source": 16384, "glossy": 2048, "sun_opening": 16384}
-TRUTH_FACTOR = 64  # samples of the truth to those of a run: its error is an eighth of a run's
+# Samples of the truth, by plain path tracing, to those of a run: its error must be a fraction of a run's.
+TRUTH_FACTOR, TRUTH_FACTORS = 64, {"bright_walls": 1024}
 TRUTH_SEED = 990001
 MEAN_ERROR = "mean_error_lx"
 UNSTATED_MEAN = "mean, if independent"  # shown, never failed
@@ -56,7 +57,7 @@ def coverage(name, runs, effort, folder, options):
     scene_file.write_text(text)
     write_points(points_file, points)
     samples = max(16, round(SAMPLES[name] * effort))
-    truths, _ = measure(scene_file, points_file, folder, TRUTH_SEED, ["--samples", samples * TRUTH_FACTOR, *PLAIN])
+    truths, _ = measure(scene_file, points_file, folder, TRUTH_SEED, ["--samples", samples * TRUTH_FACTORS.get(name, TRUTH_FACTOR), *PLAIN])
     quantities = [Quantity(kind, truth[0], truth[1]) for kind, truth in truths.items()]
     seconds = 0.0
     for seed in range(1, runs + 1):
