@@ -3,6 +3,7 @@
 #include "engine/ambient/fixed_point.h"
 #include "engine/ambient/hemisphere.h"
 #include "engine/base/threads.h"
+#include "engine/sampling/statistics.h"
 #include "engine/sampling/warps.h"
 
 #include <algorithm>
@@ -84,6 +85,12 @@ bool narrow_to_peak(AmbientSite& site, const SurfacePlace& centre, std::uint64_t
     return true;
 }
 
+void limit_reach(AmbientSite& site, double most_m)
+{
+    site.reach_m[0] = std::min(site.reach_m[0], most_m);
+    site.reach_m[1] = std::min(site.reach_m[1], most_m);
+}
+
 /// Tilts the weights so that values which change linearly over the surface are met exactly, as far as that leaves no
 /// weight below -most_negative of what it was: beyond the last site a line may be followed a little, not far.
 /// @param ways  to the sites
@@ -145,6 +152,8 @@ void DeepField::place(const std::vector<SurfacePlace>& candidates, const Hemisph
 {
     candidates_ = candidates;
     size_m_ = size_m;
+    steep_.clear();
+    steep_tree_.build(steep_);
     bright_W_per_m2_ = infinity;
     place_uncovered(rays, settings);
 }
@@ -162,6 +171,10 @@ void DeepField::place_uncovered(const HemisphereRays& rays, const DeepSettings& 
             if (covers(r.position, r.normal))
                 return;
             surveys[i] = surveyed(r, first + i, rays, size_m_, settings);
+            steep_tree_.near(r.position, [&](std::uint32_t k) {
+                if (site_distance(steep_[k], r.position, r.normal) < 1)
+                    limit_reach(surveys[i], 0.5 * steep_[k].reach_m[0]);
+            });
             if (std::isfinite(bright_W_per_m2_))
                 narrow_to_peak(surveys[i], r, first + i, bright_W_per_m2_, rays, settings.seed);
         });
@@ -335,15 +348,51 @@ DeepField::RowStarts DeepField::find_starts(const HemisphereRays& rays, const De
     return rows;
 }
 
-void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& settings)
+bool DeepField::narrow_steep()
 {
-    const auto each = static_cast<std::size_t>(std::max(1, settings.rays / replicates));
-    RowStarts rows = find_starts(rays, settings, each);
-    if (narrow_peaks(rays, settings)) {
-        place_uncovered(rays, settings);
-        rows = find_starts(rays, settings, each);
+    constexpr double steep = 1.5;        // times dimmer at another site within reach
+    constexpr double usual_noise = 3;    // in standard errors
+    constexpr double least_light = 1e-3; // of the mean: darker places light nothing
+    std::vector<RunningStatistics> light(sites_.size());
+    double mean = 0;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+        for (const std::vector<Spectrum>& ambient : ambient_)
+            light[i].add(photopic(ambient[i]));
+        mean += light[i].mean() / static_cast<double>(sites_.size());
     }
-    candidates_ = {};
+    constexpr double least_area = 0.02; // of all sites: the rays of the field are not traced again for less
+    std::vector<std::size_t> found;
+    double area = 0, found_area = 0;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+        const double covered = sites_[i].reach_m[0] * sites_[i].reach_m[0];
+        area += covered;
+        bool changes = false;
+        tree_.near(sites_[i].position, [&](std::uint32_t k) {
+            const double bright = std::max(light[i].mean(), light[k].mean());
+            const double dim = std::max(std::min(light[i].mean(), light[k].mean()), least_light * mean);
+            const double noise = std::hypot(light[i].standard_error(), light[k].standard_error());
+            changes = changes || (bright > steep * dim && bright - dim > usual_noise * noise &&
+                                  site_distance(sites_[k], sites_[i].position, sites_[i].normal) < 1);
+        });
+        if (changes) {
+            found.push_back(i);
+            found_area += covered;
+        }
+    }
+    if (found_area <= least_area * area)
+        return false;
+    for (const std::size_t i : found) {
+        steep_.push_back(sites_[i]);
+        limit_reach(sites_[i], 0.5 * sites_[i].reach_m[0]);
+    }
+    steep_tree_.build(steep_);
+    tree_.build(sites_);
+    return true;
+}
+
+void DeepField::solve_rows(const RowStarts& rows, const HemisphereRays& rays, const DeepSettings& settings,
+                           std::size_t each)
+{
     const std::size_t count = sites_.size();
     std::array<FixedPoint, replicates> systems;
     for (FixedPoint& system : systems) {
@@ -358,6 +407,23 @@ void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& setti
                       systems[r]);
     });
     parallel_for(replicates, settings.threads, [&](std::size_t r) { ambient_[r] = solve(systems[r]); });
+}
+
+void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& settings)
+{
+    constexpr int most_halvings = 2;
+    const auto each = static_cast<std::size_t>(std::max(1, settings.rays / replicates));
+    RowStarts rows = find_starts(rays, settings, each);
+    if (narrow_peaks(rays, settings)) {
+        place_uncovered(rays, settings);
+        rows = find_starts(rays, settings, each);
+    }
+    solve_rows(rows, rays, settings, each);
+    for (int n = 0; n < most_halvings && narrow_steep(); ++n) {
+        place_uncovered(rays, settings);
+        solve_rows(find_starts(rays, settings, each), rays, settings, each);
+    }
+    candidates_ = {};
 }
 
 Spectrum DeepField::sum(const std::vector<Dependence>& dependences, int replicate) const noexcept

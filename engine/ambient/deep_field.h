@@ -101,6 +101,10 @@ private:
     /// Makes the sites smaller on which lamps shine far more than elsewhere and unevenly. @return  whether there are
     /// any
     bool narrow_peaks(const HemisphereRays& rays, const DeepSettings& settings);
+    /// Halves the sites on which the solution changes so much from one to the next that their mean would put light
+    /// where it is not, where they are many. @return  whether it did
+    bool narrow_steep();
+    void solve_rows(const RowStarts& rows, const HemisphereRays& rays, const DeepSettings& settings, std::size_t each);
     bool covers(const Point& at, const Direction& normal) const noexcept;
     std::vector<Start> starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
                               std::uint64_t seed) const;
@@ -113,6 +117,8 @@ private:
     std::vector<double> tested_share_, lit_W_per_m2_;
     std::vector<double> brightest_; ///< photopic irradiance by lamps within each site's reach, W/m^2
     std::vector<SurfacePlace> candidates_;
+    std::vector<AmbientSite> steep_; ///< as they were before they were halved
+    SiteTree steep_tree_;
     double size_m_ = 0;
     double bright_W_per_m2_ = infinity; ///< above that, sites are no wider than the light is even
     BrightDiscs bright_;

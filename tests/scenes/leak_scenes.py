@@ -49,9 +49,11 @@ def door_gap():
 
 
 def partition():
-    """A partition of 1 mm that ends 0.5 m below the ceiling: bright on one side of its foot, dim on the other."""
+    """A partition of 1 mm that ends 0.5 m below the ceiling: bright on one side of its foot, dim on the other. What falls on
+    its dim side has come by at least two surfaces."""
     text = _lit_room() + box("wall", "screen", (0, -3, 0), (THIN_M, 3, 2.0))
     points = [(x, y, 0, 0, 0, 1) for x in (-0.3, -0.1, -0.03, -0.01, 0.011, 0.031, 0.101, 0.301) for y in (-2, -1, 0, 1, 2)]
+    points += [(0.011, y, z, 1, 0, 0) for y in (-1.5, 0, 1.5) for z in (0.5, 1.2)]
     return text, points, "-vtv -vp 3 -1.5 1.5 -vd -1 0.4 -0.45 -vu 0 0 1 -vh 70 -vv 60"
 
 
