@@ -33,6 +33,7 @@ def pack(host, output):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3 or sys.argv[1] not in HOSTS:
-        sys.exit(f"{__doc__}\nHOST is one of {', '.join(HOSTS)}")
-    print(pack(sys.argv[1], sys.argv[2]))
+    if len(sys.argv) != 3 or sys.argv[1] not in (*HOSTS, "all"):
+        sys.exit(f"{__doc__}\nHOST is one of {', '.join(HOSTS)}, or all")
+    for chosen in HOSTS if sys.argv[1] == "all" else [sys.argv[1]]:
+        print(pack(chosen, sys.argv[2]))

@@ -14,8 +14,8 @@ bl_info = {
 
 
 def _modules():
-    from . import illuminance, operators, panels, properties, render_engine, session
-    return properties, operators, illuminance, panels, render_engine, session
+    from . import illuminance, legend_overlay, operators, panels, properties, render_engine, session
+    return properties, operators, illuminance, panels, legend_overlay, render_engine, session
 
 
 def register():

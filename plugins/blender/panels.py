@@ -1,5 +1,8 @@
 """Panels: engine and quality under Render, the rest under Scene, and one for each material, lamp and object."""
 
+import csv
+import io
+
 import bpy
 
 from . import library_materials, show_results
@@ -111,14 +114,15 @@ class LIGHTWELL_PT_results(_ScenePanel):
         return show_results.shown(context.scene)
 
     def draw(self, context):
-        image = bpy.data.images.get(show_results.LEGEND)
-        if image is not None:
-            image.preview_ensure()
-            self.layout.template_icon(image.preview.icon_id, scale=12)
-        text = bpy.data.texts.get(show_results.TEXT)
-        column = self.layout.column(align=True)
-        for line in (text.lines if text is not None else ())[:24]:
-            column.label(text=line.body)
+        text = bpy.data.texts.get(show_results.TABLE)
+        rows = csv.DictReader(io.StringIO(text.as_string() if text is not None else ""))
+        for row in (row for row in rows if row["kind"] != "object"):
+            line = self.layout.split(factor=0.5)
+            icon = "MESH_GRID" if row["kind"] == "grid" else "OUTLINER_COLLECTION"
+            line.label(text=row["name"].rsplit("/", 1)[-1] or "(scene)", icon=icon)
+            numbers = f"{float(row['mean_lx']):.0f} ± {float(row['error_lx']):.0f} lx"
+            line.label(text=numbers + (f", min/mean {float(row['min_over_mean']):.2f}" if row["kind"] == "grid" else ""))
+        self.layout.label(text=f"All numbers: text \"{show_results.TEXT}\"")
 
 
 class _DataPanel(bpy.types.Panel):
@@ -169,8 +173,8 @@ class LIGHTWELL_PT_object(_DataPanel):
             self.fields(context.object.lightwell_grid, "spacing", "height")
 
 
-CLASSES = (LightwellPreferences, LIGHTWELL_PT_scene, LIGHTWELL_PT_quality, LIGHTWELL_PT_sky, LIGHTWELL_PT_luminaires,
-           LIGHTWELL_PT_layers, LIGHTWELL_PT_results, LIGHTWELL_PT_material, LIGHTWELL_PT_lamp, LIGHTWELL_PT_object)
+CLASSES = (LightwellPreferences, LIGHTWELL_PT_scene, LIGHTWELL_PT_results, LIGHTWELL_PT_quality, LIGHTWELL_PT_sky, LIGHTWELL_PT_luminaires,
+           LIGHTWELL_PT_layers, LIGHTWELL_PT_material, LIGHTWELL_PT_lamp, LIGHTWELL_PT_object)
 
 
 def register():

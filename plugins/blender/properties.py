@@ -35,7 +35,7 @@ class CollectionSettings(bpy.types.PropertyGroup):
     use: StringProperty(name="Lightwell material", description="A material of Lightwell's library for everything in this "
                         "collection. Empty: the objects' own materials")
     objects: IntProperty(description="How many objects renders draw of it, when it was last counted")
-    faces: IntProperty(description="And their faces")
+    faces: IntProperty(description="How many faces these objects have")
 
 
 class ObjectSettings(bpy.types.PropertyGroup):
@@ -58,9 +58,9 @@ class SceneSettings(bpy.types.PropertyGroup):
         ("NONE", "None", "Electric light only"),
         *((kind, kind.replace("-", " ").capitalize(), "CIE sky of a place and a time") for kind in sky.TYPES)],
         default="WORLD", description="Where daylight comes from")
-    latitude: FloatProperty(name="Latitude", default=52.52, min=-90, max=90, precision=4, description="North is positive")
+    latitude: FloatProperty(name="Latitude", default=52.52, min=-90, max=90, precision=4, description="Of the place, in degrees; north is positive")
     longitude: FloatProperty(name="Longitude", default=13.40, min=-180, max=180, precision=4,
-                             description="East is positive")
+                             description="Of the place, in degrees; east is positive")
     time: StringProperty(name="Time", default="2026-03-21T12:00+01:00",
                          description="Local time with its offset from UTC: 2026-03-21T12:00+01:00")
     north: FloatProperty(name="North (°)", default=0, min=-360, max=360,
@@ -77,8 +77,10 @@ class SceneSettings(bpy.types.PropertyGroup):
         ("SAMPLES", "Samples", "This many paths for a pixel or sensor")], default="ACCURACY",
         description="What the effort is measured by")
     accuracy: FloatProperty(name="Accuracy (%)", default=5, min=0.2, max=50, description="One standard error, median")
-    seconds: FloatProperty(name="Seconds", default=60, min=1, soft_max=3600)
-    samples: IntProperty(name="Samples", default=64, min=1, soft_max=4096)
+    seconds: FloatProperty(name="Seconds", default=60, min=1, soft_max=3600,
+                           description="How long a picture or a map may take")
+    samples: IntProperty(name="Samples", default=64, min=1, soft_max=4096,
+                         description="Paths for each pixel or sensor")
     seed: IntProperty(name="Seed", default=1, min=0, description="The same seed gives the same picture to the bit")
     chord: FloatProperty(name="Chord tolerance (m)", default=0.001, min=1e-6, max=1, precision=4,
                          description="How far facets of a limit surface may be from it")

@@ -49,9 +49,11 @@ class LightwellEngine(bpy.types.RenderEngine):
             self._complain(error)
 
     def __del__(self):
-        viewport = getattr(self, "_viewport", None)
-        if viewport is not None:
-            viewport.close()
+        try:
+            if self._viewport is not None:
+                self._viewport.close()
+        except ReferenceError:
+            pass  # Blender ends, and the engine's process with it
 
     def update_render_passes(self, scene=None, renderlayer=None):
         self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")

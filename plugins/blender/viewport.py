@@ -2,6 +2,7 @@
 
 import math
 import time
+import weakref
 
 import gpu
 import numpy as np
@@ -13,6 +14,10 @@ from .lightwell_bridge.client import FINAL, sentence_of
 from .lightwell_bridge.scene_folder import number
 
 LAYER = "Viewport"
+# The viewports that are open, for those who want to know how they fare.
+LIVE = weakref.WeakSet()
+# The first pictures are small and coarse: something is there at once. Each is (divisor of the size, accuracy).
+FIRST = ((6, 0.4), (2, 0.4))
 # A view that is still being turned is not begun anew before it has rested this long.
 SECONDS_OF_REST = 0.15
 
@@ -24,9 +29,15 @@ class Viewport:
         self._engine, self._name = engine, f"viewport-{id(self):x}"
         self._session = session.session(self._name)
         self._dirty, self._view, self._asked = True, None, None
-        self._request, self._texture, self._changed = None, None, time.monotonic()
+        self._request, self._texture, self._changed, self._level = None, None, time.monotonic(), 0
+        self._wish = {}
         self._cancelled, self.stop_seconds = {}, []  # when each was told to stop; how long each took
-        self.failure = None
+        self.failure, self.shown = None, 0  # pictures
+        LIVE.add(self)
+
+    def busy(self):
+        """Whether a picture is still getting better."""
+        return self._request is not None
 
     def update(self, context, depsgraph):
         """The scene has changed: what is under way is of no use any more."""
@@ -47,7 +58,9 @@ class Viewport:
         self._collect()
         if self._asked != self._view and self.failure is None:
             if time.monotonic() - self._changed >= SECONDS_OF_REST or self._asked is None:
-                self._ask(depsgraph.scene)
+                self._wish = session.effort(depsgraph.scene.lightwell)
+                self._level = 0
+                self._ask()
             else:
                 self._engine.tag_redraw()
         if self._texture is not None:
@@ -62,16 +75,19 @@ class Viewport:
         except ReferenceError:
             pass  # the viewport is gone
 
-    def _ask(self, scene):
+    def _ask(self):
+        """Asks for the picture of the present level: the coarse ones, then the one that was wished for."""
         view, size = self._view
         client = self._session.client
         if client is None:
             return
-        file = self._session.folder() / "view.exr"
-        self._request = client.send("render", view=view, size=list(size), layer=LAYER, file=str(file), progressive=True,
-                                    **session.effort(scene.lightwell))
+        divisor, wish = 1, dict(self._wish, progressive=True)
+        if self._level < len(FIRST):
+            divisor, accuracy = FIRST[self._level]
+            wish = {"accuracy": accuracy, "seed": self._wish["seed"]}
+        self._request = client.send("render", view=view, size=[max(side // divisor, 1) for side in size], layer=LAYER,
+                                    file=str(self._session.folder() / "view.exr"), **wish)
         self._asked = self._view
-        self._engine.update_stats("Lightwell", "first picture")
 
     def _stop(self):
         if self._request is not None and self._session.client is not None:
@@ -100,6 +116,11 @@ class Viewport:
                 self._engine.update_stats("Lightwell", self.failure)
             if event["event"] in FINAL:
                 self._request = None
+        if self._request is None and newest is not None and self._level < len(FIRST):
+            self._level += 1
+            self._load(newest["file"])
+            self._ask()
+            return
         if newest is not None:
             self._load(newest["file"])
             error = newest.get("error")
@@ -111,6 +132,7 @@ class Viewport:
         pixels = np.stack([picture[f"{LAYER}.Combined.{c}"] for c in "RGBA"], axis=-1)[::-1]
         height, width = pixels.shape[:2]
         data = gpu.types.Buffer("FLOAT", width * height * 4, np.ascontiguousarray(pixels, dtype=np.float32).reshape(-1))
+        self.shown += 1
         self._texture = gpu.types.GPUTexture((width, height), format="RGBA16F", data=data)
 
     def _paint(self, context, scene, size):

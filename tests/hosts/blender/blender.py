@@ -56,6 +56,15 @@ class InBlender(unittest.TestCase):
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                                 env=settings, cwd=self.path, **more)
 
+    def once(self, *words, **more):
+        """The answer of a run that all tests of the class share; the first that asks has it made."""
+        if "_answer" not in vars(type(self)):
+            type(self)._answer = None
+            type(self)._answer = self.blender(*words, **more)
+            type(self).said = self.output
+        self.assertIsNotNone(self._answer, "Blender did not answer the first test of this class")
+        return self._answer
+
     def blender(self, script, *words, fails=False, **more):
         answer = self.path / "answer.json"
         answer.unlink(missing_ok=True)

@@ -4,11 +4,8 @@ from blender import OFFICE, InBlender, run
 
 
 class Display(InBlender):
-    result = None
-
     def setUp(self):
-        if self.result is None:
-            type(self).result = self.blender("inside_display.py", file=OFFICE)
+        self.result = self.once("inside_display.py", file=OFFICE)
 
     def test_every_object_shows_its_own_values_also_when_meshes_are_shared(self):
         for name, (shown, first, last) in self.result["shown"].items():

@@ -14,11 +14,9 @@ class Export(InBlender):
     def setUpClass(cls):
         super().setUpClass()
         cls.truth = json.loads(TRUTH.read_text())
-        cls.answer = None
 
     def setUp(self):
-        if self.answer is None:
-            type(self).answer = self.blender("inside_export.py", file=OFFICE)
+        self.answer = self.once("inside_export.py", file=OFFICE)
         self.parts = self.answer["parts"]
 
     def drawn(self):

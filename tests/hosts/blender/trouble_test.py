@@ -10,14 +10,9 @@ FAKE = ROOT / "tests/bridge/fake_engine.py"
 
 
 class Trouble(InBlender):
-    found = None
-
     def setUp(self):
-        if self.found is None:
-            result = self.blender("inside_trouble.py", FAKE, file=OFFICE,
-                                  environment={"PATH": "/usr/bin:/bin"}.items(), fails=True)
-            self.assertIsNotNone(result, self.output[-6000:])
-            type(self).found, type(self).changed = result["found"], result["changed"]
+        result = self.once("inside_trouble.py", FAKE, file=OFFICE, environment={"PATH": "/usr/bin:/bin"}.items(), fails=True)
+        self.found, self.changed = result["found"], result["changed"]
 
     def expect(self, name, *sentences):
         for sentence in sentences:
