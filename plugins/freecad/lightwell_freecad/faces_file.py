@@ -5,6 +5,8 @@ import math
 
 from lightwell_bridge.results import FaceLight, ObjectLight
 
+from .optics import DEFAULT
+
 
 def read(file, exported):
     """ObjectLights in the order of `exported.objects`; faces follow those of each object's record, the triangles of a
@@ -20,7 +22,7 @@ def read(file, exported):
     found = []
     for path, record in exported.objects.items():
         values = {face["id"]: face for face in parts.get(path, {}).get("faces", [])}
-        light = ObjectLight(path, record["layer"] or "")
+        light = ObjectLight(path, record["layer"] or DEFAULT)
         for face in record["faces"]:
             if face["kind"] == "mesh":
                 light.faces += [_gathered([values.get(f"{face['element']}/{i}")]) for i in range(face["count"])]

@@ -19,7 +19,9 @@ from . import contours, walk
 GROUP = "LightwellResults"
 MM_PER_M = 1000.0
 # The legend stands this share of the model's width beside it.
-LEGEND_GAP, LEGEND_SHARE = 0.06, 0.3
+LEGEND_GAP, LEGEND_SHARE = 0.1, 0.5
+# Share of the area within the scale.
+SHOWN_AREA = 0.95
 # Surfaces and lines of a grid are drawn this far in front of each other, so that neither hides the other.
 LIFT_MM = 2.0
 
@@ -45,15 +47,32 @@ def show(project, exported, objects, grids, folder, notes=()):
     with one_step(document, "Lightwell: show illuminance"):
         _clear(project)
         group = _group(project)
-        values = [v for light in objects for v in light.lux()] + [v for g in grids for v in g.lux]
-        top = false_colour.scale_top(np.array(values, dtype=float))
-        _colour_objects(project, exported, objects, top)
+        top = scale_top(objects, grids, exported)
         for grid in grids:
             _show_grid(group, exported.grids[grid.name], grid, top)
         _table(group, objects, grids, notes)
         _legend(group, document, folder, top)
-    document.recompute()
+        # Windows of Arch, and meshes, put their own colours back when they are recomputed.
+        document.recompute()
+        _colour_objects(project, exported, objects, top)
+        for obj in group.Group:
+            if obj.TypeId == "Mesh::Feature":
+                _colour_mesh(obj)
+        project.purgeTouched()
     return group
+
+
+def scale_top(objects, grids, exported):
+    """A round number that SHOWN_AREA of the area shown does not exceed: lamps and what is close to them go beyond."""
+    pairs = [(lux, face.area) for light in objects for lux, face in zip(light.lux(), light.faces)]
+    for grid in grids:
+        pairs += [(lux, exported.grids[grid.name]["spacing_m"] ** 2) for lux in grid.lux]
+    values = np.array([p for p in pairs if math.isfinite(p[0]) and p[1] > 0]).reshape(-1, 2)
+    if not len(values):
+        return 1.0
+    values = values[np.argsort(values[:, 0])]
+    covered = np.cumsum(values[:, 1])
+    return false_colour.scale_top([values[np.searchsorted(covered, SHOWN_AREA * covered[-1]), 0]])
 
 
 def show_picture(project, label, file, width_mm):
@@ -129,7 +148,7 @@ def _paint(obj, pairs, top):
         else:
             look["colours"] = [list(c) for c in obj.FaceColors]
         obj.FaceColors = [(*c, 0.0) for c in colours]
-        view.Coloring = True
+        _colour_mesh(obj)
         return look
     if obj.hasExtension("App::LinkBaseExtension"):
         look = {"kind": "link", "colours": {k: list(c) for k, c in view.getElementColors().items()}}
@@ -145,8 +164,28 @@ def _paint(obj, pairs, top):
     for record, light in pairs:
         for face, colour in zip(record["faces"], _colours(light.lux(), top)):
             after[face["face"]] = (*colour, before[face["face"]][3])
-    view.DiffuseColor = after
+    _set_colours(view, after)
     return look
+
+
+def _set_colours(view, colours):
+    """Windows of Arch would put the colours of their parts back at once: they are asked not to while this is done."""
+    proxy = getattr(view, "Proxy", None)
+    guarded = hasattr(type(proxy), "colorize")
+    if guarded:
+        proxy.colorize = lambda *_, **__: None
+    try:
+        view.DiffuseColor = colours
+    finally:
+        if guarded:
+            del proxy.colorize
+
+
+def _colour_mesh(obj):
+    """Shows the colours of a mesh's triangles, also when they were shown before."""
+    if obj.ViewObject is not None:
+        obj.ViewObject.Coloring = False
+        obj.ViewObject.Coloring = True
 
 
 def _restore(obj, look):
@@ -154,7 +193,7 @@ def _restore(obj, look):
     if view is None:
         return
     if look["kind"] == "shape":
-        view.DiffuseColor = [tuple(c) for c in look["colours"]]
+        _set_colours(view, [tuple(c) for c in look["colours"]])
     elif look["kind"] == "link":
         view.setElementColors({k: tuple(c) for k, c in look["colours"].items()})
     else:
@@ -221,7 +260,6 @@ def _surface(group, grid, spread, frame, spacing, top):
     obj.addProperty("App::PropertyColorList", "FaceColors", "Lightwell", "Illuminance as colours")
     obj.FaceColors = colours
     if obj.ViewObject is not None:
-        obj.ViewObject.Coloring = True
         obj.ViewObject.Lighting = "Two side"
 
 
@@ -274,11 +312,23 @@ def _legend(group, document, folder, top):
     file = folder / "legend.png"
     file.write_bytes(png.encode(picture[:, :, :3]))
     low, high = _bounds(document)
-    width, depth = high[0] - low[0], high[1] - low[1]
-    tall = LEGEND_SHARE * max(width, depth)
+    tall = LEGEND_SHARE * max(high[:2] - low[:2])
     wide = tall * picture.shape[1] / picture.shape[0]
-    place = FreeCAD.Vector(high[0] + LEGEND_GAP * width + wide / 2, low[1] + tall / 2, low[2])
-    _image(group, "Legend (lx)", str(file), wide, tall, place, FreeCAD.Rotation())
+    rotation = _to_the_eye()
+    right = np.array(rotation.multVec(FreeCAD.Vector(1, 0, 0)))
+    reach = float(np.abs(right) @ (high - low)) / 2 + LEGEND_GAP * tall + wide / 2
+    place = FreeCAD.Vector(*((low + high) / 2 + reach * right))
+    _image(group, "Legend (lx)", str(file), wide, tall, place, rotation)
+
+
+def _to_the_eye():
+    """Turns a picture so that the 3D window sees it straight on; without a window it stands upright and faces the front."""
+    if FreeCAD.GuiUp:
+        import FreeCADGui
+        view = getattr(FreeCADGui.ActiveDocument, "ActiveView", None)
+        if hasattr(view, "getCameraOrientation"):
+            return view.getCameraOrientation()
+    return FreeCAD.Rotation(FreeCAD.Vector(1, 0, 0), 90)
 
 
 def _image(group, label, file, width_mm, height_mm, place, rotation):

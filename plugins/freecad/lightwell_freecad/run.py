@@ -10,12 +10,13 @@ illuminance(), objects() and picture() do that and come back when they are done.
 
 import pathlib
 import tempfile
+import threading
 import time
 
 import FreeCAD
 
 from lightwell_bridge import library, results as numbers
-from lightwell_bridge.client import SECONDS_TO_STOP, Client, sentence_of
+from lightwell_bridge.client import Client, sentence_of
 from lightwell_bridge.engine import EngineError, find_engine
 
 from . import export, faces_file, pictures, project as projects, results
@@ -26,6 +27,8 @@ ILLUMINANCE, OBJECTS = "illuminance of grids", "illuminance of objects"
 # How often a call that waits looks whether something has come, s.
 WAIT_S = 0.02
 MM_PER_M = 1000.0
+# An engine that has not stopped after this time is left behind and ended, s: people wait 200 ms at most.
+GRACE_S = 0.15
 
 
 class Failed(Exception):
@@ -50,6 +53,12 @@ class _Session:
         if self.client is None:
             self.client = Client(program)
         return self.client
+
+    def abandon(self):
+        """Leaves an engine that does not listen to its end, without waiting for it."""
+        client, self.client, self.loaded = self.client, None, False
+        if client is not None:
+            threading.Thread(target=client.close, daemon=True).start()
 
     def end(self):
         if self.client is not None:
@@ -200,8 +209,8 @@ class Job:
             return
         event = self._session.client.next_event(self._request)
         if event is None:
-            if self._cancelled_at is not None and time.monotonic() - self._cancelled_at > SECONDS_TO_STOP:
-                self._session.end()
+            if self._cancelled_at is not None and time.monotonic() - self._cancelled_at > GRACE_S:
+                self._session.abandon()
                 self._fail("")
             return
         if event["event"] == "progress":

@@ -136,7 +136,8 @@ class Tutorial(unittest.TestCase):
 
     def test_3_a_job_can_be_stopped(self):
         project = self.project()
-        kept, project.Accuracy = project.Accuracy, 0.001
+        self.addCleanup(setattr, project, "Accuracy", project.Accuracy)
+        project.Accuracy = 0.001
         panel = self.panel_of("Lightwell_Illuminance")
         begun = lambda: panel.job.phase and "illuminance" in panel.job.text
         wait_for(lambda: begun() or not panel.timer.isActive())
@@ -145,11 +146,12 @@ class Tutorial(unittest.TestCase):
         asked = time.monotonic()
         panel.stop.click()
         self.assertTrue(wait_for(lambda: not panel.timer.isActive(), 20))
-        self.assertLess(time.monotonic() - asked, STOPPED_WITHIN_S)
+        took = time.monotonic() - asked
+        print(f"stopped after {1000 * took:.0f} ms", file=host.ERRORS)
+        self.assertLess(took, STOPPED_WITHIN_S)
         self.assertEqual(panel.label.text(), "Stopped; nothing was changed.")
         self.assertEqual(project.SavedColours, "")
         panel.reject()
-        project.Accuracy = kept
 
     def test_4_the_objects_show_their_illuminance(self):
         panel = self.panel_of("Lightwell_Illuminance")
@@ -161,9 +163,11 @@ class Tutorial(unittest.TestCase):
         self.look()
         pixels = self.shot("illuminance").reshape(-1, 3) / 255
         from lightwell_bridge import false_colour
-        scale = false_colour.encoded(false_colour.linear_colours(np.linspace(0, 1, 64)))
-        near = np.abs(pixels[::7, None] - scale[None]).max(axis=2).min(axis=1) < 0.03
-        saturated = pixels[::7].max(axis=1) - pixels[::7].min(axis=1) > 0.15
+        # Hues from blue-green on: the background is violet, and the window shades what it shows.
+        scale = false_colour.encoded(false_colour.linear_colours(np.linspace(0.4, 0.95, 64)))
+        hues = pixels[::7] / np.maximum(pixels[::7].max(axis=1, keepdims=True), 1e-3)
+        near = np.abs(hues[:, None] - (scale / scale.max(axis=1, keepdims=True))[None]).max(axis=2).min(axis=1) < 0.06
+        saturated = pixels[::7].max(axis=1) - pixels[::7].min(axis=1) > 0.12
         self.assertGreater(float((near & saturated).mean()), 0.02)
 
     def test_5_numbers_are_in_a_table(self):
