@@ -34,9 +34,9 @@ constexpr double most_off = 3;
 
 /// Paths through a pixel beside noise, as a multiple of the usual ones.
 constexpr int more_paths = 4;
-/// What counts as noise: a standard error of so many tolerances of the mean around; a difference of so large a part of
-/// it, where it is an edge that runs between the pixels looked at.
-constexpr double noisy = 4, edge = 1.0;
+/// What counts as noise, in multiples of what is usual in the picture: a standard error; a difference, where it is an
+/// edge that runs between the pixels looked at, and no less than that share of their mean.
+constexpr double noisy = 4, noisy_edge = 8, least_edge = 1;
 
 } // namespace
 
@@ -138,7 +138,7 @@ const PixelField::Pixel& PixelField::first(int x, int y)
     const auto found = first_.find(key);
     if (found != first_.end())
         return found->second;
-    const Pixel pixel{value_of(task_.measure(x, y, samples_), samples_), task_.sight(x, y)};
+    const Pixel pixel{value_of(task_.measure(x, y, image_.samples), image_.samples), task_.sight(x, y)};
     return first_.emplace(key, pixel).first->second;
 }
 
@@ -161,18 +161,20 @@ bool PixelField::beside_noise(int x, int y)
         }
     const double mean = sum / std::max(count, 1);
     const bool between = x % 2 != 0 || y % 2 != 0;
-    return most_error > noisy * tolerance_ * mean || (between && high - low > edge * mean);
+    const double quiet = std::max(image_.tolerance, image_.usual_error);
+    const double edge = std::max(least_edge, noisy_edge * quiet);
+    return most_error > noisy * quiet * mean || (between && high - low > edge * mean);
 }
 
 const PixelField::Pixel& PixelField::own(int x, int y)
 {
-    if (tolerance_ == 0 || !beside_noise(x, y))
+    if (image_.tolerance == 0 || !beside_noise(x, y))
         return first(x, y);
     const std::int64_t key = static_cast<std::int64_t>(y) * task_.width + x;
     const auto found = own_.find(key);
     if (found != own_.end())
         return found->second;
-    const int samples = more_paths * samples_;
+    const int samples = more_paths * image_.samples;
     return own_.emplace(key, Pixel{value_of(task_.measure(x, y, samples), samples), task_.sight(x, y)}).first->second;
 }
 
@@ -204,12 +206,12 @@ bool PixelField::interpolated(int x, int y, PixelValue& value)
         illuminance[i] = here.met_surface ? v[illuminance_at] : 0;
         illuminance_error[i] = here.met_surface ? v[illuminance_error_at] : 0;
     }
-    if (!close(luminance, luminance_error, count, tolerance_) ||
-        !close(illuminance, illuminance_error, count, tolerance_))
+    if (!close(luminance, luminance_error, count, image_.tolerance) ||
+        !close(illuminance, illuminance_error, count, image_.tolerance))
         return false;
     const double mean = std::accumulate(luminance, luminance + count, 0.0) / static_cast<double>(count);
-    const double path_noise = *std::min_element(luminance_error, luminance_error + count) * std::sqrt(samples_);
-    const double allowed = std::max(tolerance_ * mean, most_off * path_noise / std::sqrt(probe_paths));
+    const double path_noise = *std::min_element(luminance_error, luminance_error + count) * std::sqrt(image_.samples);
+    const double allowed = std::max(image_.tolerance * mean, most_off * path_noise / std::sqrt(probe_paths));
     if (std::fabs(task_.probe(x, y, probe_paths) - mean) > allowed)
         return false;
     value.fill(0);
@@ -227,7 +229,7 @@ bool PixelField::interpolated(int x, int y, PixelValue& value)
 
 const PixelValue& PixelField::at(int x, int y)
 {
-    if (tolerance_ > 0 && interpolated(x, y, last_))
+    if (image_.tolerance > 0 && interpolated(x, y, last_))
         return last_;
     return own(x, y).value;
 }

@@ -48,6 +48,14 @@ private:
                   Spectrum& irradiance) const;
 };
 
+struct ImageSampling {
+    int samples;          ///< paths of a pixel of its own
+    double tolerance = 0; ///< relative difference of luminance and of illuminance that neighbours may have; 0: every
+                          ///< pixel has the same number of paths
+    double usual_error =
+        0; ///< of this picture's pixels, relative: far above it and the tolerance, there are more paths
+};
+
 /// The pixels of a part of a picture: every other one in both directions by its own paths, those between by
 /// interpolation where the neighbours agree, its middle shows the same surface and a few paths bring nothing else,
 /// else by their own paths too.
@@ -58,12 +66,7 @@ private:
 /// Source  Ward 1994, Section 3.1 (image plane sampling), with a few rays to each pixel so that nothing thin is lost
 class PixelField {
 public:
-    /// @param tolerance  relative difference of luminance and of illuminance that neighbours may have; 0: no
-    ///                   interpolation
-    PixelField(const PixelTask& task, int samples, double tolerance)
-        : task_(task), samples_(samples), tolerance_(tolerance)
-    {
-    }
+    PixelField(const PixelTask& task, const ImageSampling& image) : task_(task), image_(image) {}
     const PixelValue& at(int x, int y);
 
 private:
@@ -77,8 +80,7 @@ private:
     bool interpolated(int x, int y, PixelValue& value);
 
     const PixelTask& task_;
-    int samples_;
-    double tolerance_;
+    ImageSampling image_;
     std::unordered_map<std::int64_t, Pixel> first_, own_; ///< by the usual paths, and by those it deserves
     PixelValue last_{};
 };

@@ -157,7 +157,7 @@ void check_size(const View& view, const PictureSettings& settings)
 }
 
 /// All tiles of a part of the picture, those kept from an interrupted run included.
-Picture render_tiles(const PixelTask& pixel, const Tile& wanted, int samples, double tolerance, int threads,
+Picture render_tiles(const PixelTask& pixel, const Tile& wanted, const ImageSampling& image, int threads,
                      const TileStore& store, Teller& teller)
 {
     Picture picture = empty_picture(wanted.width, wanted.height);
@@ -169,7 +169,7 @@ Picture render_tiles(const PixelTask& pixel, const Tile& wanted, int samples, do
         std::optional<Picture> part = store.stored ? store.stored(tile) : std::nullopt;
         if (!part) {
             part = empty_picture(tile.width, tile.height);
-            PixelField field(pixel, samples, tolerance);
+            PixelField field(pixel, image);
             for (int y = 0; y < tile.height; ++y) {
                 teller.check();
                 for (int x = 0; x < tile.width; ++x)
@@ -278,10 +278,17 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
         result.samples = samples_for(pilot_errors(error_with(pilot_samples, false), pilot_samples, shared),
                                      settings.accuracy, most_samples);
     }
+    ImageSampling image{result.samples};
+    if (!plain && settings.techniques.image_sampling) {
+        Teller teller(progress, "pilot run", pilot_columns * pilot_rows);
+        const Lattice some =
+            measure_lattice(pixel, whole, pilot_columns, pilot_rows, image.samples, settings.threads, teller);
+        image.tolerance = settings.accuracy;
+        image.usual_error = median_relative(some.values, some.errors);
+    }
     result.work.fixed_rays = rays.next();
     Teller teller(progress, "view " + view.name, tiles_of(wanted.width, wanted.height).size());
-    const double tolerance = plain || !settings.techniques.image_sampling ? 0 : settings.accuracy;
-    result.picture = render_tiles(pixel, wanted, result.samples, tolerance, settings.threads, store, teller);
+    result.picture = render_tiles(pixel, wanted, image, settings.threads, store, teller);
     result.work.value_rays = rays.next();
     result.median_relative_error = median_relative_error(result.picture);
     if (!plain) {
