@@ -1,6 +1,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
-#include "engine/sky/sky.h"
+#include "engine/sky/measured_sky.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,8 @@ constexpr double highest_sun_rad = 87 * radians_per_degree;
 constexpr double stated_sun_angle_deg = 0.5;
 /// Its solid angle, as the models use it for the ground.
 constexpr double stated_sun_sr = 6e-5;
+/// The solid angle by which they spread a measured irradiance.
+constexpr double measured_sun_sr = 5.98e-5;
 
 double sine_squared(double full_angle_deg)
 {
@@ -74,10 +76,12 @@ double stated_sun_radiance(CieSky kind, double sine)
     return kind == CieSky::intermediate ? through_thin_cloud * clear : clear;
 }
 
-void check(const SkyOptions& options, const Direction& to_sun)
+void check(const SkyOptions& options, const Direction& to_sun, double least_turbidity)
 {
-    if (!(options.turbidity >= 1 && std::isfinite(options.turbidity)))
-        throw InputError("sky", "turbidity is " + shortest(options.turbidity) + ", expected >= 1 (pure air)",
+    if (!(options.turbidity >= least_turbidity && std::isfinite(options.turbidity)))
+        throw InputError("sky",
+                         "turbidity is " + shortest(options.turbidity) + ", expected >= " + shortest(least_turbidity) +
+                             " (pure air has 1)",
                          "a clear day has 2 to 3, haze 5 to 8");
     if (!(options.ground_reflectance >= 0 && options.ground_reflectance <= 1))
         throw InputError("sky",
@@ -93,7 +97,13 @@ void check(const SkyOptions& options, const Direction& to_sun)
 
 SkyModel make_sky(const SkyOptions& options, const Direction& to_sun)
 {
-    check(options, to_sun);
+    check(options, to_sun, 1);
+    return make_measured_sky(options, {}, to_sun).sky;
+}
+
+MeasuredSky make_measured_sky(const SkyOptions& options, const MeasuredLight& measured, const Direction& to_sun)
+{
+    check(options, to_sun, 0);
     const bool follows_sun = options.kind == CieSky::clear || options.kind == CieSky::intermediate;
     SkyModel sky;
     sky.kind = options.kind;
@@ -104,17 +114,23 @@ SkyModel make_sky(const SkyOptions& options, const Direction& to_sun)
         sky.normalization = zenith_value(options.kind, altitude_rad);
         mean_over_zenith = diffuse_integral(options.kind, altitude_rad) / sky.normalization / pi;
     }
-    sky.zenith = zenith_kcd_per_m2(options.kind, options.turbidity, altitude_rad) * 1000 / sky_lumens_per_watt;
-    sky.ground = sky.zenith * mean_over_zenith;
+    sky.zenith = measured.diffuse_W_per_m2
+                     ? *measured.diffuse_W_per_m2 / pi / mean_over_zenith
+                     : measured.zenith.value_or(zenith_kcd_per_m2(options.kind, options.turbidity, altitude_rad) *
+                                                1000 / sky_lumens_per_watt);
+    const double mean = sky.zenith * mean_over_zenith;
+    double stated = 0;
+    sky.ground = mean;
     if (follows_sun && sine > 0) {
-        const double stated = stated_sun_radiance(options.kind, sine);
+        stated = measured.direct_W_per_m2 ? *measured.direct_W_per_m2 / measured_sun_sr / sine
+                                          : measured.half_degree_sun.value_or(stated_sun_radiance(options.kind, sine));
         // The ground is lit by the sun even when its disc is left out of the scene.
         sky.ground += stated_sun_sr / pi * stated * sine;
         sky.with_sun = options.with_sun;
         sky.sun_radiance = stated * sine_squared(stated_sun_angle_deg) / sine_squared(sun_full_angle_deg);
     }
     sky.ground *= options.ground_reflectance;
-    return sky;
+    return {sky, mean, stated};
 }
 
 } // namespace lightwell

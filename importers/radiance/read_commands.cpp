@@ -1,5 +1,6 @@
 #include "engine/base/files.h"
 #include "engine/base/text.h"
+#include "importers/radiance/inline_commands.h"
 #include "importers/radiance/place_surface.h"
 #include "importers/radiance/scene_reader.h"
 
@@ -14,6 +15,21 @@ constexpr std::size_t smallest_worth_sharing = 16;
 /// Copies of surfaces that transforms may make (a gigabyte, about) before it counts as a slip.
 constexpr std::size_t most_copies = 5'000'000;
 
+/// The words of a command that is nothing but one xform of files, which can be placed without making text.
+std::optional<std::vector<std::string>> one_xform(const std::string& command, const std::string& place)
+{
+    std::optional<std::vector<std::string>> words;
+    try {
+        CommandStages stages = command_stages(command, place);
+        if (stages.size() == 1 && stages[0][0] == "xform" &&
+            std::find(stages[0].begin(), stages[0].end(), "-I") == stages[0].end())
+            words = std::move(stages[0]);
+    } catch (const InputError&) {
+        return std::nullopt; // answer_command() knows whether a shell may have it
+    }
+    return words;
+}
+
 [[noreturn]] void refuse_copies(const std::string& place)
 {
     throw InputError{place, fmt::format("the transforms copy more than {} surfaces", most_copies),
@@ -24,14 +40,17 @@ constexpr std::size_t most_copies = 5'000'000;
 
 void SceneReader::run(OpenFile& file, const std::string& command, const std::string& place, Target target)
 {
-    const std::string_view program = trimmed(command).substr(0, trimmed(command).find_first_of(" \t"));
-    if (program != "xform")
-        throw InputError{place + ": !" + std::string(program), "commands other than xform are not run",
-                         "run it yourself, write its output to NAME.rad and put `!xform NAME.rad` in its place"};
-    const std::string at = place + ": !xform";
-    const std::vector<std::string> words = command_words(command, at);
-    for (const Xform& xform : parse_xform({words.begin() + 1, words.end()}, file, at))
-        include(xform, file, at, target);
+    const std::string at =
+        place + ": !" + std::string(trimmed(command).substr(0, trimmed(command).find_first_of(" \t")));
+    if (const auto words = one_xform(command, at)) {
+        for (const Xform& xform : parse_xform({words->begin() + 1, words->end()}, file, at))
+            include(xform, file, at, target);
+        return;
+    }
+    GeneratorInput input;
+    input.find_file = [&](const std::string& name) { return find_quietly(name, file); };
+    const std::string text = answer_command(command, at, input, policy_, file.depth);
+    read_text(text, file.path, at, &file, {target.part, target.scope, target.first_file, false});
 }
 
 std::vector<SceneReader::Xform> SceneReader::parse_xform(const std::vector<std::string>& words, const OpenFile& file,

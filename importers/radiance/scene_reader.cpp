@@ -13,16 +13,21 @@
 
 namespace lightwell {
 
-Scene read_radiance(const std::filesystem::path& file, Report& report)
+Scene read_radiance(const std::filesystem::path& file, Report& report, const RadianceReadOptions& options)
 {
     KeptMeshes kept;
     SceneOrigins origins;
-    return read_radiance(file, report, kept, origins);
+    return scene_text::SceneReader(file, report, kept, origins, options).read();
+}
+
+Scene read_radiance(const std::filesystem::path& file, Report& report)
+{
+    return read_radiance(file, report, RadianceReadOptions{});
 }
 
 Scene read_radiance(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins)
 {
-    return scene_text::SceneReader(file, report, kept, origins).read();
+    return scene_text::SceneReader(file, report, kept, origins, {}).read();
 }
 
 namespace scene_text {
@@ -53,8 +58,9 @@ bool is_compiled(std::string_view text)
 
 } // namespace
 
-SceneReader::SceneReader(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins)
-    : first_file_(file), report_(report), kept_(kept), origins_(origins), table_(scene_)
+SceneReader::SceneReader(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins,
+                         const RadianceReadOptions& options)
+    : first_file_(file), report_(report), kept_(kept), origins_(origins), policy_{options.run_commands}, table_(scene_)
 {
 }
 
@@ -83,11 +89,18 @@ void SceneReader::read_file(const std::filesystem::path& path, const OpenFile* f
         if (outer->path == canonical)
             throw InputError{place, "files refer to each other in a circle: " + chain_of_names(names),
                              "take one of the references out"};
-        if (names.size() > deepest_nesting)
-            throw InputError{place, fmt::format("files refer to files more than {} deep", deepest_nesting),
-                             "check for generated references that never end"};
     }
-    OpenFile file{from, canonical, Words(mapped.bytes(), path.string())};
+    read_text(mapped.bytes(), canonical, path.string(), from, target);
+}
+
+void SceneReader::read_text(std::string_view text, const std::filesystem::path& path, const std::string& name,
+                            const OpenFile* from, Target target)
+{
+    OpenFile file{from, path, Words(text, name)};
+    file.depth = from == nullptr ? 0 : from->depth + 1;
+    if (file.depth > deepest_nesting)
+        throw InputError{name, fmt::format("files refer to files more than {} deep", deepest_nesting),
+                         "check for generated references that never end"};
     Primitive primitive;
     for (;;) {
         const Words::Next next = file.words.next();

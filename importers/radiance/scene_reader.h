@@ -1,8 +1,9 @@
 #pragma once
 
+#include "importers/radiance/inline_commands.h"
 #include "importers/radiance/modifier_table.h"
 #include "importers/radiance/ply_part.h"
-#include "importers/radiance/radiance.h"
+#include "importers/radiance/read_options.h"
 #include "importers/radiance/transform_words.h"
 #include "importers/radiance/words.h"
 #include "materials/patterns/pattern_reader.h"
@@ -17,7 +18,8 @@ namespace lightwell::scene_text {
 /// Reads one scene: the first file and every file that it refers to.
 class SceneReader {
 public:
-    SceneReader(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins);
+    SceneReader(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins,
+                const RadianceReadOptions& options);
     Scene read();
 
 private:
@@ -26,6 +28,7 @@ private:
         const OpenFile* from;
         std::filesystem::path path; ///< canonical
         Words words;
+        int depth = 0;                  ///< files and outputs of commands around it
         std::string last_modifier = {}; ///< consecutive surfaces mostly share theirs
         Meaning last_meaning = {};
         bool last_known = false;
@@ -60,6 +63,9 @@ private:
     };
 
     void read_file(const std::filesystem::path& path, const OpenFile* from, const std::string& place, Target target);
+    /// @param path  where the text's references are looked for; `name` is for messages
+    void read_text(std::string_view text, const std::filesystem::path& path, const std::string& name,
+                   const OpenFile* from, Target target);
     void read_primitive(OpenFile& file, Primitive& primitive, Target target);
     /// What `#@from` named is where the surfaces of the primitive after it come from.
     void note_object(std::size_t first_surface);
@@ -115,6 +121,7 @@ private:
     Report& report_;
     KeptMeshes& kept_;
     SceneOrigins& origins_;
+    CommandPolicy policy_;
     Scene scene_;
     ModifierTable table_;
     Scope scope_;

@@ -28,6 +28,7 @@ LIGHT_ROWS = [
 ]
 IMPORT_ROWS = [
     {"importers"},
+    {"importers/generators"},
     {"importers/dxf", "importers/obj", "importers/gltf", "importers/radiance", "importers/assimp",
      "importers/surfaces", "importers/export"},
     {"importers/formats"},
