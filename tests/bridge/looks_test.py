@@ -189,7 +189,25 @@ class Views(unittest.TestCase):
         self.assertEqual((self.value(words, "-vh"), self.value(words, "-vv")), (288, 180))
 
 
-class Sky(unittest.TestCase):
+class Sky(InFolder):
+    def lux(self, *words):
+        subprocess.run([os.environ["LIGHTWELL"], "illuminance", *map(str, words), "--samples", "256", "-o", self.path / "s.csv"],
+                       check=True, capture_output=True)
+        return [float(v) for v in (self.path / "s.csv").read_text().split()[-1].split(",")[6:8]]
+
+    def test_a_place_and_a_time_give_the_light_of_the_command_line(self):
+        place, time, north = (52.37, 4.9), "2026-06-21T14:30+02:00", 30.0
+        drawing = self.path / "wall.obj"
+        drawing.write_text("v -1 -1 0\nv 1 -1 0\nv 1 -1 1\nv -1 -1 1\nf 1 2 3 4\n")
+        (self.path / "points").write_text("0 0 0.5 1 0 0\n")  # upright, so that the sun's azimuth counts
+        theirs, error = self.lux(drawing, "--up", "z", "--sky", "clear", "--place", "%g,%g" % place, "--time", time, "--north",
+                                 north, "--grid", f"file:{self.path / 'points'}")
+        self.folder.material("plastic", "grey", numbers=(0.5, 0.5, 0.5, 0, 0))
+        self.folder.surface("grey", "polygon", "wall", (-1, -1, 0, 1, -1, 0, 1, -1, 1, -1, -1, 1))
+        sky.add_sky(self.folder, sky.Sky("clear", *place, time, north))
+        ours, our_error = self.lux(self.folder.save(), "--grid", f"file:{self.path / 'points'}")
+        self.assertLess(abs(ours - theirs), 5 * math.hypot(error, our_error) + 1e-3 * theirs)
+
     def test_a_sky_is_told_by_place_and_time(self):
         text = sky.sky_text(sky.Sky(latitude_deg=52.37, longitude_deg=4.9, time="2026-06-21T14:30+02:00"))
         self.assertIn("!gensky 6 21 14.50000 -y 2026 +s -a 52.37 -o -4.9 -m -30.0 -t 2.45 -g 0.2\n", text)
