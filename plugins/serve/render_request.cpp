@@ -53,6 +53,27 @@ std::vector<Pass> passes_of(const PictureSettings& wanted, double seconds)
     return passes;
 }
 
+/// Before all others comes a picture with so many times fewer pixels a side, as long as enough of them are left.
+constexpr int coarser = 4, fewest_pixels = 16;
+
+bool begins_coarse(const PictureSettings& wanted)
+{
+    return wanted.region.width == 0 && std::min(wanted.width, wanted.height) >= coarser * fewest_pixels;
+}
+
+/// Each pixel of the small picture as a block of the large one.
+Picture enlarged(const Picture& small, int width, int height)
+{
+    Picture large{width, height, {}, small.header};
+    for (const auto& [name, values] : small.channels) {
+        std::vector<float>& to = large.add_channel(name);
+        for (int y = 0, i = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x, ++i)
+                to[static_cast<std::size_t>(i)] = small.at(name, x * small.width / width, y * small.height / height);
+    }
+    return large;
+}
+
 std::string members_of(const PictureJob& job, const PictureResult& result, const std::vector<std::string>& layers)
 {
     nlohmann::ordered_json json = {{"width", result.picture.width}, {"height", result.picture.height},
@@ -91,6 +112,17 @@ PictureResult Session::render_progressively(PictureJob& job, const std::optional
     const std::vector<Pass> passes = passes_of(wanted, job.time_s);
     PictureResult result;
     double last_pass_s = 0, done = 0;
+    if (begins_coarse(wanted)) {
+        PictureSettings small = wanted;
+        small.width /= coarser;
+        small.height /= coarser;
+        small.samples = passes.front().samples;
+        small.accuracy = passes.front().accuracy;
+        result = loaded_->simulation->render(job.view, small, told.part(0, 0));
+        result.picture = enlarged(result.picture, wanted.width, wanted.height);
+        write_picture(job, layer, result);
+        told.events().partial(told.id(), job.file.string(), result.samples, result.median_relative_error);
+    }
     for (const Pass& pass : passes) {
         const double left_s = job.time_s - seconds_since(start);
         if (job.time_s > 0 && last_pass_s > 0 && next_pass * last_pass_s > left_s)

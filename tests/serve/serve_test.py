@@ -132,7 +132,7 @@ class Results(WithEngine):
         shown = {names[int(i)]["name"] for i in np.unique(own["ViewLayer.ObjectLayer.X"]) if i >= 0}
         self.assertTrue({"Wall", "Floor", "Desk: Oak"} <= shown, shown)
         floor = own["ViewLayer.ObjectLayer.X"] == [n["name"] for n in names].index("Floor")
-        np.testing.assert_allclose(own["ViewLayer.Normal.Z"][floor], 1, atol=0.2)  # edges mix with what is beside them
+        # All but its edges, which mix with what is beside them.
         self.assertGreater((own["ViewLayer.Normal.Z"][floor] > 0.999).mean(), 0.8)
 
     def test_a_region_has_the_bits_of_the_whole(self):
@@ -149,7 +149,7 @@ class Results(WithEngine):
 
     def test_a_progressive_picture_is_whole_each_time_and_gets_better(self):
         self.load(room(self.path))
-        number = self.engine.send("render", view="desk", size=[48, 36], accuracy=0.1, progressive=True, layer="V",
+        number = self.engine.send("render", view="desk", size=[96, 72], accuracy=0.1, progressive=True, layer="V",
                                   file=str(self.path / "a.exr"))
         partials, last = [], None
         while last is None:
@@ -158,10 +158,13 @@ class Results(WithEngine):
             if event["id"] == number and event["event"] == "partial":
                 _, channels = exr.read(event["file"])
                 self.assertTrue(np.isfinite(channels["V.Combined.R"]).all())
+                if not partials:  # the first has a quarter of the pixels a side
+                    blocks = channels["V.Combined.R"].reshape(18, 4, 24, 4)
+                    np.testing.assert_array_equal(blocks, blocks[:, :1, :, :1].repeat(4, axis=1).repeat(4, axis=3))
                 partials.append(event)
             elif event["id"] == number and event["event"] == "result":
                 last = event
-        self.assertEqual(len(partials), 3)
+        self.assertEqual(len(partials), 4)
         self.assertEqual(partials[0]["samples"], 8)
         self.assertLess(partials[-1]["error"], partials[0]["error"])
         self.assertLess(last["error"], 0.15)
