@@ -167,6 +167,7 @@ void DeepField::place_uncovered(const HemisphereRays& rays, const DeepSettings& 
         const std::size_t count = std::min(batch, candidates_.size() - first);
         std::vector<AmbientSite> surveys(count);
         parallel_for(count, settings.threads, [&](std::size_t i) {
+            settings.check();
             const SurfacePlace& r = candidates_[first + i];
             if (covers(r.position, r.normal))
                 return;
@@ -293,6 +294,7 @@ void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const H
     brightest_.assign(count, 0);
     tested_share_.clear();
     parallel_for(count, settings.threads, [&](std::size_t i) {
+        settings.check();
         double squares = 0;
         for (std::uint32_t k = 0; k < from[i].size(); ++k) {
             PathRandom random(mix_bits(settings.seed, direct_salt), i, k);
@@ -342,8 +344,10 @@ bool DeepField::narrow_peaks(const HemisphereRays& rays, const DeepSettings& set
 DeepField::RowStarts DeepField::find_starts(const HemisphereRays& rays, const DeepSettings& settings, std::size_t each)
 {
     RowStarts rows{std::vector<std::vector<Start>>(sites_.size()), std::vector<double>(sites_.size(), 1.0)};
-    parallel_for(sites_.size(), settings.threads,
-                 [&](std::size_t i) { rows.from[i] = starts(i, rays, each, settings.seed); });
+    parallel_for(sites_.size(), settings.threads, [&](std::size_t i) {
+        settings.check();
+        rows.from[i] = starts(i, rays, each, settings.seed);
+    });
     find_direct(rows.from, rays, settings, rows.other_share);
     return rows;
 }
