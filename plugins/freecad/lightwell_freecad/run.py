@@ -28,7 +28,7 @@ ILLUMINANCE, OBJECTS = "illuminance of grids", "illuminance of objects"
 WAIT_S = 0.02
 MM_PER_M = 1000.0
 # An engine that has not stopped after this time is left behind and ended, s: people wait 200 ms at most.
-GRACE_S = 0.15
+GRACE_S = 0.1
 
 
 class Failed(Exception):
