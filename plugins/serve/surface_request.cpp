@@ -33,8 +33,8 @@ std::vector<ChartedFace> chart_faces(const Scene& scene, const SceneOrigins& ori
     bool wanted = false;
     visit_faces(scene, origins, [&](std::size_t root_surface, const PlacedFace& face) {
         const std::string& object = object_of(scene, origins, root_surface);
+        told.check();
         if (root_surface != last_root_surface) {
-            told.check();
             last_root_surface = root_surface;
             wanted = std::any_of(request.parts.begin(), request.parts.end(),
                                  [&](const std::string& glob) { return glob == object || matches(glob, object); });

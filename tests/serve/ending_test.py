@@ -78,7 +78,7 @@ class Cancelling(WithEngine):
     def test_grids_and_surfaces_stop(self):
         self.load(room(self.path))
         for do, fields in (("illuminance", {"grid": "plane:0.85,0.1,0.1,3.9,2.9/0.02", "file": str(self.path / "a.csv")}),
-                           ("surfaces", {"spacing": 0.02, "file": str(self.path / "a.json")}),
+                           ("surfaces", {"spacing": 0.05, "file": str(self.path / "a.json")}),
                            ("plan", {"view": "desk", "size": [1920, 1080]})):
             self.measure(lambda: self.engine.send(do, accuracy=0.02, **fields), [0.1, 0.5, 1, 1.7])
 
