@@ -9,8 +9,6 @@
 namespace lightwell {
 namespace {
 
-/// A sensor that lies in a surface is lifted off it by this share of the scene's size.
-constexpr double sensor_lift = 1e-9;
 constexpr std::size_t pilot_sensors = 64;
 constexpr int pilot_paths = 8 * pilot_samples;
 /// From this number on, sensors share records of ambient light.
@@ -18,12 +16,6 @@ constexpr std::size_t many_sensors = 2000;
 /// Sensors checked against plain path tracing, and the most paths that takes, as a share of all.
 constexpr std::size_t checked_sensors = 32;
 constexpr double check_share = 0.5;
-
-SurfacePlace receiver_of(const Sensor& sensor, double size_m)
-{
-    const double error = sensor_lift * size_m + 64 * std::numeric_limits<double>::epsilon() * max_abs(sensor.position);
-    return {sensor.position, normalized(sensor.normal), error};
-}
 
 /// Keeps the random numbers of direct light and of rays apart.
 constexpr std::uint64_t direct_salt = 0x64697265;

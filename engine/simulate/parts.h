@@ -41,6 +41,14 @@ private:
     }
 };
 
+/// A sensor as rays see it. One that lies in a surface is lifted off it by a billionth of the scene's size.
+inline SurfacePlace receiver_of(const Sensor& sensor, double size_m)
+{
+    constexpr double sensor_lift = 1e-9;
+    const double error = sensor_lift * size_m + 64 * std::numeric_limits<double>::epsilon() * max_abs(sensor.position);
+    return {sensor.position, normalized(sensor.normal), error};
+}
+
 /// Throws Cancelled when progress says stop.
 inline std::function<void()> stop_when_asked(const Progress& progress)
 {

@@ -73,12 +73,15 @@ struct PathTracer::Walk {
     bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
     int replicate = 0;
     int splits_left = 0; ///< at how many panes both the mirrored and the passing light are still followed
+    PathListener* listener = nullptr;
     std::vector<Dependence>* dependences = nullptr; ///< of an arrival: what comes from the deep field is not known yet
 
     void add(Spectrum light, double weight = 1)
     {
         radiance += throughput * light;
         irradiance += arriving_throughput * light * weight;
+        if (listener != nullptr)
+            listener->added(arriving_throughput * light * weight, void_modifier);
     }
     /// From here on an arrival brings light that another way of sending rays finds too.
     void settle_aim()
@@ -236,19 +239,20 @@ void PathTracer::add_ambient(Walk& walk, const AmbientHere& here) const
     }
 }
 
-void PathTracer::add_direct(Walk& walk, const Gathered& direct, double share) const
+void PathTracer::add_direct(Walk& walk, const Gathered& direct, double share, ModifierId at) const
 {
     walk.radiance += walk.throughput * direct.radiance * share;
-    if (walk.at_first)
-        walk.irradiance += direct.irradiance * share;
-    else
-        walk.irradiance += walk.arriving_throughput * direct.radiance * share;
+    const Spectrum irradiance =
+        walk.at_first ? direct.irradiance * share : walk.arriving_throughput * direct.radiance * share;
+    walk.irradiance += irradiance;
+    if (walk.listener != nullptr)
+        walk.listener->added(irradiance, walk.at_first ? void_modifier : at);
 }
 
 void PathTracer::gather_plainly(Walk& walk, const Vertex& vertex, const GatherWish& wish, PathRandom& random) const
 {
-    add_direct(walk, direct_.gather(vertex, wish, random, walk.here), 1);
-    add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1);
+    add_direct(walk, direct_.gather(vertex, wish, random, walk.here), 1, vertex.hit.modifier);
+    add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1, vertex.hit.modifier);
 }
 
 void PathTracer::gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here,
@@ -256,8 +260,8 @@ void PathTracer::gather_beside_ambient(Walk& walk, const Vertex& vertex, const A
 {
     if (!walk.bent) {
         const GatherWish wish{first_rays, {true, true, false}, LobeSet::specular};
-        add_direct(walk, eye_direct_.gather_tested(vertex, wish.kinds, {}, random, walk.here), 1);
-        add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1);
+        add_direct(walk, eye_direct_.gather_tested(vertex, wish.kinds, {}, random, walk.here), 1, vertex.hit.modifier);
+        add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1, vertex.hit.modifier);
         return;
     }
     const Lobes& lobes = vertex.bsdf.lobes();
@@ -279,9 +283,10 @@ void PathTracer::gather_beside_ambient(Walk& walk, const Vertex& vertex, const A
     walk.add(usual);
     if (random.one() < tested_share) {
         const Gathered tested = quick_direct_.gather_tested(vertex, {true, false, false}, {}, random, walk.here);
-        add_direct(walk, tested, 1 / tested_share);
+        add_direct(walk, tested, 1 / tested_share, vertex.hit.modifier);
         const GatherWish wish{later_rays, {true, false, false}, LobeSet::specular};
-        add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1 / tested_share);
+        add_direct(walk, mirrored_.gather(vertex, wish, random, walk.mirror_here), 1 / tested_share,
+                   vertex.hit.modifier);
         walk.add(usual * (-1 / tested_share));
     }
 }
@@ -332,6 +337,8 @@ bool PathTracer::follow(Walk& walk, const Vertex& vertex, const BsdfSample& scat
             walk.bent = true;
         }
     }
+    if (walk.listener != nullptr && !walk.at_first && !scattered.straight)
+        walk.listener->bent(vertex.hit.modifier);
     ++walk.scatterings;
     walk.at_first = false;
     return true;
@@ -453,12 +460,16 @@ PathSample PathTracer::sample(const Ray& ray, int replicate, PathRandom& random)
     return result;
 }
 
-Spectrum PathTracer::irradiance(const SurfacePlace& receiver, int replicate, PathRandom& random) const
+Spectrum PathTracer::irradiance(const SurfacePlace& receiver, int replicate, PathRandom& random,
+                                PathListener* listener) const
 {
     const Vertex vertex = white_vertex(receiver);
     Walk walk;
     walk.ray.direction = -receiver.normal;
     walk.replicate = replicate;
+    walk.listener = listener;
+    if (listener != nullptr)
+        listener->begin();
     AmbientHere here;
     if (find_ambient(walk, vertex, here)) {
         add_ambient(walk, here);

@@ -3,6 +3,7 @@
 #include "engine/direct/mirrored_light.h"
 #include "engine/simulate/aim.h"
 #include "engine/simulate/ambient_light.h"
+#include "engine/simulate/path_listener.h"
 
 namespace lightwell {
 
@@ -45,7 +46,9 @@ public:
     PathSample sample(const Ray& ray, int replicate, PathRandom& random) const;
     Sight sight(const Ray& ray) const noexcept;
     /// One estimate of the irradiance at a receiver, W/m^2.
-    Spectrum irradiance(const SurfacePlace& receiver, int replicate, PathRandom& random) const;
+    /// @param listener  may be null
+    Spectrum irradiance(const SurfacePlace& receiver, int replicate, PathRandom& random,
+                        PathListener* listener = nullptr) const;
 
     Arrival arrive(const SurfacePlace& receiver, const Direction& direction, PathRandom& random,
                    std::vector<Dependence>& dependences) const override;
@@ -69,7 +72,7 @@ private:
     void gather_plainly(Walk& walk, const Vertex& vertex, const GatherWish& wish, PathRandom& random) const;
     bool answered(const Walk& walk, bool is_sun, int source) const;
     void gather_beside_ambient(Walk& walk, const Vertex& vertex, const AmbientHere& here, PathRandom& random) const;
-    void add_direct(Walk& walk, const Gathered& direct, double share) const;
+    void add_direct(Walk& walk, const Gathered& direct, double share, ModifierId at) const;
     bool follow(Walk& walk, const Vertex& vertex, const BsdfSample& scattered, LobeSet set) const;
     void split(Walk& walk, const Vertex& vertex, double mirrored_choice, PathRandom& random) const;
     bool scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRandom& random) const;
