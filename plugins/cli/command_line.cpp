@@ -1,8 +1,8 @@
 #include "plugins/cli/command_line.h"
 
 #include "engine/base/errors.h"
+#include "plugins/cli/insight_commands.h"
 #include "plugins/cli/provenance.h"
-#include "plugins/cli/subcommands.h"
 
 #include <CLI/CLI.hpp>
 
@@ -27,7 +27,7 @@ Exit status: 0 done, 1 the answer is no or the work was interrupted, 2 wrong usa
 /// Options whose value may begin with '-', which would read as another option: "--view", "-vtv ..." become one word.
 std::vector<std::string> join_values(const std::vector<std::string>& arguments)
 {
-    static constexpr std::array<std::string_view, 3> with_minus{"--view", "--place", "--north"};
+    static constexpr std::array<std::string_view, 4> with_minus{"--view", "--place", "--north", "--sensor"};
     std::vector<std::string> joined;
     for (std::size_t i = 1; i < arguments.size(); ++i) {
         const bool takes_next = std::find(with_minus.begin(), with_minus.end(), arguments[i]) != with_minus.end();
@@ -57,6 +57,8 @@ Status parse_and_run(const std::vector<std::string>& arguments, const std::vecto
     add_bake(app, status);
     add_plan(app, status);
     add_run(app, status);
+    add_explain(app, status);
+    add_tradeoff(app, status);
     add_validate(app, status);
     for (const AddSubcommand add : more)
         add(app, status);

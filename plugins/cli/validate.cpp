@@ -1,3 +1,6 @@
+#include "plugins/insight/validation_report.h"
+
+#include "engine/base/errors.h"
 #include "plugins/cli/provenance.h"
 #include "plugins/cli/subcommands.h"
 #include "plugins/cli/terminal.h"
@@ -6,6 +9,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 
 namespace lightwell {
@@ -13,13 +18,14 @@ namespace {
 
 struct ValidateOptions {
     ValidationOptions validation;
-    std::string perturb;
+    std::string perturb, html;
     bool json = false;
 };
 
 constexpr const char* examples = R"(Examples:
   lightwell validate                                 under half a minute, tolerances of 1 %
   lightwell validate --full                          the tolerances of the cases, minutes
+  lightwell validate --full --html report            also report/index.html, with plots
   lightwell validate --case cl_sky --json
 Each row compares a value found by the engine with one recomputed from its formula. It passes when the deviation is at
 most the tolerance and three standard errors, and the standard error at most a third of the tolerance.)";
@@ -50,8 +56,34 @@ void print_json(const std::vector<ValidationRow>& rows, const ValidateOptions& o
     out << result.dump(2) << '\n';
 }
 
+void write_page(const std::filesystem::path& folder, const std::vector<ValidationRow>& rows,
+                const ValidateOptions& options)
+{
+    const std::string what =
+        std::string(options.validation.full ? "Full run" : "Quick look")
+            .append(", seed ")
+            .append(std::to_string(options.validation.seed))
+            .append(", lightwell ")
+            .append(program_version())
+            .append(options.perturb.empty() ? "" : ", with a deliberate error in " + options.perturb);
+    std::ofstream page(folder / "index.html", std::ios::binary);
+    if (!(page << validation_html(rows, what)) || !page.flush())
+        throw InputError{(folder / "index.html").string(), "cannot be written", "is the folder writable?"};
+}
+
+/// Before the minutes that the cases take.
+void make_folder(const std::string& folder)
+{
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+        throw InputError{folder, "cannot be made", failed.message()};
+}
+
 Status validate(ValidateOptions options, std::ostream& out)
 {
+    if (!options.html.empty())
+        make_folder(options.html);
     if (!options.perturb.empty())
         options.validation.perturb = parse_perturbation(options.perturb);
     catch_interrupts();
@@ -60,6 +92,8 @@ Status validate(ValidateOptions options, std::ostream& out)
         ProgressLine line("validate");
         rows = validate_engine(options.validation, line.progress());
     }
+    if (!options.html.empty())
+        write_page(options.html, rows, options);
     if (options.json)
         print_json(rows, options, out);
     else
@@ -69,7 +103,7 @@ Status validate(ValidateOptions options, std::ostream& out)
 
 } // namespace
 
-/// lightwell validate [--quick | --full] [--case TEXT] [--json]: the engine against closed forms.
+/// lightwell validate [--quick | --full] [--case TEXT] [--html DIR] [--json]: the engine against closed forms.
 /// Status 1 when a row does not pass.
 void add_validate(CLI::App& app, Status& status)
 {
@@ -83,6 +117,7 @@ void add_validate(CLI::App& app, Status& status)
     command.add_option("--threads", options->validation.threads, "0: all processors; the result does not depend on it")
         ->type_name("N")
         ->check(CLI::Range(0, 1024));
+    command.add_option("--html", options->html, "also a page with plots: DIR/index.html")->type_name("DIR");
     command.add_flag("--json", options->json, "for programs, on standard output");
     command
         .add_option("--perturb", options->perturb,

@@ -1,0 +1,136 @@
+#include "plugins/insight/peers.h"
+
+#include "engine/base/errors.h"
+#include "engine/pictures/rgbe.h"
+#include "importers/radiance/radiance.h"
+#include "plugins/insight/child_run.h"
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+namespace lightwell {
+namespace {
+
+constexpr double most_cpu_s = 300;
+
+/// What its own driver chooses for low, medium and high quality, with six reflections.
+struct Quality {
+    const char* name;
+    const char* words;
+};
+constexpr Quality quality_table[RadiancePeers::qualities] = {
+    {"low", "-ar 16 -ds .4 -dt .1 -dc .5 -dr 2 -ss 0 -st .5 -aa .25 -ad 512 -as 0 -lr 6 -lw .001 -dp 128 -ab 6"},
+    {"medium",
+     "-ar 32 -ds .2 -dj .9 -dt .07 -dc .7 -dr 2 -ss 1 -st .1 -aa .15 -ad 800 -as 128 -lr 8 -lw 1e-4 -dp 512 -ab 6"},
+    {"high", "-ar 64 -ds .1 -dj .9 -dt .04 -dc .9 -dr 3 -ss 16 -st .01 -aa .1 -ad 1536 -as 768 -lr 12 -lw 5e-6 -dp "
+             "2048 -ab 8"}};
+
+std::vector<std::string> with_words(std::vector<std::string> words, const std::string& more)
+{
+    std::istringstream stream(more);
+    for (std::string word; stream >> word;)
+        words.push_back(word);
+    return words;
+}
+
+std::string ending(const ChildResult& result)
+{
+    if (result.timed_out)
+        return fmt::format("ended after {:.0f} s of CPU time", result.cpu_s);
+    return result.status == 0 ? "" : fmt::format("exit status {}", result.status);
+}
+
+} // namespace
+
+RadiancePeers::RadiancePeers(const Scene& scene)
+{
+    for (const char* program : {"oconv", "rtrace", "rpict"})
+        if (program_on_path(program).empty()) {
+            absent_ = std::string(program).append(" is not on the PATH");
+            return;
+        }
+    std::string pattern = (std::filesystem::temp_directory_path() / "lightwell-peers-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+        throw InputError{pattern, "a folder for the other programs cannot be made", "is TMPDIR writable?"};
+    folder_ = pattern;
+    Report ignored;
+    WriteOptions options;
+    options.flat = true;
+    write_radiance(scene, folder_ / "scene.rad", options, ignored);
+    octree_ = folder_ / "scene.oct";
+    const ChildResult made = run_child({"oconv", (folder_ / "scene.rad").string()}, {}, octree_, most_cpu_s);
+    if (made.status != 0 || made.timed_out)
+        absent_ = "oconv: " + ending(made);
+}
+
+RadiancePeers::~RadiancePeers()
+{
+    std::error_code ignored;
+    if (!folder_.empty())
+        std::filesystem::remove_all(folder_, ignored);
+}
+
+PeerRun RadiancePeers::illuminance(const SensorGrid& grid, int quality) const
+{
+    const Quality& q = quality_table[quality];
+    PeerRun run;
+    run.program = "Radiance rtrace";
+    run.setting = q.name;
+    const std::filesystem::path points = folder_ / "points.txt", found = folder_ / "found.txt";
+    {
+        std::ofstream file(points);
+        for (const Sensor& s : grid.sensors)
+            file << fmt::format("{} {} {} {} {} {}\n", s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y,
+                                s.normal.z);
+    }
+    std::vector<std::string> words = with_words({"rtrace", "-h", "-w", "-I"}, q.words);
+    words.push_back(octree_.string());
+    const ChildResult result = run_child(words, points, found, most_cpu_s);
+    run.cpu_s = result.cpu_s;
+    run.wall_s = result.wall_s;
+    run.failure = ending(result);
+    std::ifstream file(found);
+    for (double r, g, b; file >> r >> g >> b;)
+        run.values.push_back(illuminance_of({r, g, b}).value);
+    if (run.failure.empty() && run.values.size() != grid.sensors.size())
+        run.failure = "it answered for other sensors than were asked for";
+    return run;
+}
+
+PeerRun RadiancePeers::picture(const View& view, int width, int height, int quality) const
+{
+    constexpr int finer = 2;
+    const Quality& q = quality_table[quality];
+    PeerRun run;
+    run.program = "Radiance rpict";
+    run.setting = q.name;
+    std::vector<std::string> words = with_words({"rpict", "-w", "-ps", "1", "-pa", "0"}, to_text(view));
+    words = with_words(words, fmt::format("-x {} -y {} {}", finer * width, finer * height, q.words));
+    words.push_back(octree_.string());
+    const std::filesystem::path file = folder_ / "found.hdr";
+    const ChildResult result = run_child(words, {}, file, most_cpu_s);
+    run.cpu_s = result.cpu_s;
+    run.wall_s = result.wall_s;
+    run.failure = ending(result);
+    if (!run.failure.empty())
+        return run;
+    const Picture picture = read_rgbe(file);
+    if (picture.width != finer * width || picture.height != finer * height) {
+        run.failure = "its picture has another size than was asked for";
+        return run;
+    }
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            double sum = 0;
+            for (int k = 0; k < finer * finer; ++k) {
+                const int px = finer * x + k % finer, py = finer * y + k / finer;
+                sum += luminance_of({picture.at("R", px, py), picture.at("G", px, py), picture.at("B", px, py)}).value;
+            }
+            run.values.push_back(sum / (finer * finer));
+        }
+    return run;
+}
+
+} // namespace lightwell

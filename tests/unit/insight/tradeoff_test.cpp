@@ -1,0 +1,111 @@
+#include "plugins/insight/tradeoff.h"
+
+#include "engine/base/errors.h"
+#include "plugins/insight/child_run.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace lightwell {
+namespace {
+
+TEST(ErrorFigures, AreThoseOfSmallNumbersByHand)
+{
+    const ErrorFigures e = error_figures({11, 18, 30, 40}, {10, 20, 30, 40});
+    EXPECT_NEAR(e.rms, std::sqrt((0.01 + 0.01) / 4), 1e-12);
+    EXPECT_NEAR(e.mean_bias, 0, 1e-12);
+    EXPECT_NEAR(e.maximum, 0.1, 1e-12);
+    EXPECT_NEAR(e.percentile_95, 0.1, 1e-12);
+}
+
+TEST(ErrorFigures, DarkItemsAreHeldAgainstAShareOfTheMean)
+{
+    const ErrorFigures e = error_figures({100, 0.1}, {100, 0});
+    EXPECT_NEAR(e.maximum, 0.1 / (1e-3 * 50), 1e-9);
+    EXPECT_EQ(error_figures({}, {}).rms, 0);
+    EXPECT_THROW(error_figures({1}, {}), std::invalid_argument);
+}
+
+TEST(Tradeoff, ChoosesTheCheapestSettingOfItsOwnThatReachedTheError)
+{
+    Tradeoff t;
+    const auto add = [&](const char* program, const char* without, double cpu, double rms) {
+        TradePoint p;
+        p.program = program;
+        p.without = without;
+        p.cpu_s = cpu;
+        p.error.rms = rms;
+        t.points.push_back(p);
+    };
+    add("Lightwell", "", 1, 0.08);
+    add("Lightwell", "", 2, 0.04);
+    add("Lightwell", "cache", 0.5, 0.04);
+    add("Radiance rtrace", "", 0.1, 0.001);
+    add("Lightwell", "", 9, 0.009);
+    choose_settings(t);
+    EXPECT_EQ(t.points[0].chosen_for, std::vector<double>{0.1});
+    EXPECT_EQ(t.points[1].chosen_for, std::vector<double>{0.05});
+    EXPECT_EQ(t.points[4].chosen_for, (std::vector<double>{0.01, 0.03}));
+    EXPECT_TRUE(t.points[2].chosen_for.empty());
+    EXPECT_TRUE(t.points[3].chosen_for.empty());
+}
+
+Scene small_room()
+{
+    Scene scene;
+    const ModifierId wall = scene.add_material("wall", Plastic{{0.5, 0.5, 0.5}, 0, 0});
+    scene.root.add_sphere({{0, 0, 0}, 2}, Shape::bubble, wall, "wall");
+    scene.root.add_sphere({{0, 0, 1}, 0.2}, Shape::sphere, scene.add_material("lamp", Light{{10, 10, 10}}), "lamp");
+    return scene;
+}
+
+TEST(Tradeoff, RunsSettingsAndTechniquesAgainstAReferenceThatStatesItsError)
+{
+    SensorGrid grid;
+    for (int i = 0; i < 5; ++i)
+        grid.sensors.push_back({{0.2 * i, 0, -1}, {0, 0, 1}});
+    TradeSettings settings;
+    settings.reference_cpu_s = 0.5;
+    settings.accuracies = {0.1, 0.02};
+    settings.peers = false;
+    const Tradeoff t = measure_tradeoff(small_room(), grid, settings);
+    EXPECT_GT(t.reference.residual, 0);
+    EXPECT_LT(t.reference.residual, 0.05);
+    ASSERT_GT(t.points.size(), 8u);
+    EXPECT_EQ(t.points[0].setting, "10 %");
+    EXPECT_LT(t.points[0].error.rms, 0.3);
+    EXPECT_LT(t.points[1].error.rms, 0.08 + 3 * t.reference.residual);
+    const std::string csv = tradeoff_csv(t);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), t.points.size() + 2);
+    EXPECT_NE(chart_svg(tradeoff_chart(t, "room")).find("CPU time (s)"), std::string::npos);
+}
+
+TEST(Tradeoff, ASceneWithoutLightSaysSo)
+{
+    Scene dark;
+    dark.root.add_sphere({{0, 0, 0}, 2}, Shape::bubble, dark.add_material("wall", Plastic{{0.5, 0.5, 0.5}, 0, 0}), "w");
+    SensorGrid grid;
+    grid.sensors = {{{0, 0, 0}, {0, 0, 1}}};
+    TradeSettings settings;
+    settings.reference_cpu_s = 0.1;
+    EXPECT_THROW(measure_tradeoff(dark, grid, settings), InputError);
+}
+
+TEST(ChildRun, TellsTheEndTheOutputAndAProgramThatIsNotThere)
+{
+    const std::filesystem::path out = std::filesystem::path(testing::TempDir()) / "child_run_test.txt";
+    EXPECT_EQ(run_child({"sh", "-c", "echo light; exit 3"}, {}, out, 10).status, 3);
+    std::string word;
+    std::ifstream(out) >> word;
+    EXPECT_EQ(word, "light");
+    EXPECT_EQ(run_child({"/no/such/program"}, {}, out, 10).status, 127);
+    const ChildResult endless = run_child({"sh", "-c", "while :; do :; done"}, {}, out, 0.5);
+    EXPECT_TRUE(endless.timed_out);
+    EXPECT_FALSE(program_on_path("sh").empty());
+    EXPECT_TRUE(program_on_path("no-such-program-here").empty());
+}
+
+} // namespace
+} // namespace lightwell
