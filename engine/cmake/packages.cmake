@@ -10,6 +10,7 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)        # engine/base
 find_package(CLI11 REQUIRED)               # plugins/cli
+find_package(OpenMesh REQUIRED)            # engine/geometry
 find_package(draco REQUIRED)               # importers/gltf
 find_package(meshoptimizer REQUIRED)       # importers/gltf
 find_package(assimp 5.2 REQUIRED)          # importers/assimp, the child program alone

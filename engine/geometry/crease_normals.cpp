@@ -1,5 +1,7 @@
 #include "engine/geometry/crease_normals.h"
 
+#include "engine/geometry/half_edges.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -59,28 +61,23 @@ Mesh crease_normals(const Mesh& mesh, double crease_angle_deg)
         fronts.push_back(
             normalized(cross(mesh.points[mesh.triangles[i + 1]] - a, mesh.points[mesh.triangles[i + 2]] - a)));
     }
-    const auto next = [](Index corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
-    // A directed edge meets the opposite one of its neighbour; more than one neighbour leaves the edge sharp.
-    std::unordered_map<std::uint64_t, std::vector<Index>> sides;
-    const auto key = [&](Index from, Index to) {
-        return static_cast<std::uint64_t>(place[mesh.triangles[from]]) << 32 | place[mesh.triangles[to]];
-    };
-    for (Index corner = 0; corner < corners; ++corner)
-        sides[key(corner, next(corner))].push_back(corner);
+    std::vector<std::array<Index, 3>> triangles(corners / 3);
+    for (Index i = 0; i < corners; ++i)
+        triangles[i / 3][i % 3] = place[mesh.triangles[i]];
+    const HalfEdges edges(mesh.points.size(), triangles);
     Sets sets(corners);
     for (Index corner = 0; corner < corners; ++corner) {
-        const auto beyond = sides.find(key(next(corner), corner));
-        if (beyond == sides.end() || beyond->second.size() != 1 || sides[key(corner, next(corner))].size() != 1)
+        const Index other = edges.beyond(corner);
+        if (other == HalfEdges::none) // an edge of more than two triangles stays sharp
             continue;
-        const Index other = beyond->second[0];
         if (dot(fronts[corner / 3], fronts[other / 3]) < sharp_cosine)
             continue;
-        sets.join(corner, next(other));
-        sets.join(next(corner), other);
+        sets.join(corner, HalfEdges::next(other));
+        sets.join(HalfEdges::next(corner), other);
     }
     std::vector<Vec3> sums(corners);
     for (Index corner = 0; corner < corners; ++corner) {
-        const Index after = next(corner), before = next(after);
+        const Index after = HalfEdges::next(corner), before = HalfEdges::next(after);
         sums[sets.root(corner)] +=
             fronts[corner / 3] * angle_at(mesh.points[mesh.triangles[corner]], mesh.points[mesh.triangles[after]],
                                           mesh.points[mesh.triangles[before]]);

@@ -1,11 +1,10 @@
 #include "engine/geometry/merge_coplanar.h"
 
+#include "engine/geometry/half_edges.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <numeric>
-#include <unordered_map>
 
 namespace lightwell {
 namespace {
@@ -22,7 +21,7 @@ constexpr double straight_tolerance = 1e-6;
 constexpr double area_tolerance = 1e-6;
 
 using Index = std::uint32_t;
-constexpr Index none = std::numeric_limits<Index>::max();
+constexpr Index none = HalfEdges::none;
 using Loop = std::vector<Index>;
 
 struct Triangle {
@@ -31,24 +30,17 @@ struct Triangle {
     bool is_sliver() const { return !(length(twice_area) > sliver * size * size); }
 };
 
-/// One side of a triangle as a directed edge.
-struct Side {
-    Index low, high;
-    Index number; ///< 3 * triangle + corner at which it begins
-    bool forward; ///< from low to high
-};
-
 class Merger {
 public:
     explicit Merger(const TriangleSoup& soup);
     std::vector<FlatFace> run();
 
 private:
-    void find_neighbours();
     void grow_regions();
     bool fits(Index triangle, Index seed) const;
     bool trace(FlatFace& face, const Vec3& front);
-    std::vector<Loop> loops_of(const FlatFace& face, const Vec3& front) const;
+    std::vector<Loop> loops_of(const FlatFace& face);
+    bool is_inside(Index side, Index region) const;
     Index corner(Index side) const { return soup_.triangles[side / 3][side % 3]; }
     Index end_of(Index side) const { return soup_.triangles[side / 3][(side % 3 + 1) % 3]; }
     void find_straight_points();
@@ -57,45 +49,22 @@ private:
 
     const TriangleSoup& soup_;
     std::vector<Triangle> shapes_;
-    std::vector<Index> neighbour_; ///< by side: the triangle beyond it, or none
-    std::vector<Index> region_;    ///< by triangle
+    HalfEdges edges_;
+    std::vector<bool> walked_;  ///< by side: it is part of a loop
+    std::vector<Index> region_; ///< by triangle
     std::vector<FlatFace> faces_;
     std::vector<bool> straight_; ///< by point
 };
 
 Merger::Merger(const TriangleSoup& soup)
-    : soup_(soup), neighbour_(3 * soup.triangles.size(), none), region_(soup.triangles.size(), none),
-      straight_(soup.points.size(), false)
+    : soup_(soup), edges_(soup.points.size(), soup.triangles), walked_(3 * soup.triangles.size(), false),
+      region_(soup.triangles.size(), none), straight_(soup.points.size(), false)
 {
     shapes_.reserve(soup.triangles.size());
     for (const auto& [a, b, c] : soup.triangles) {
         const Point &p = soup.points[a], &q = soup.points[b], &r = soup.points[c];
         shapes_.push_back(
             {cross(q - p, r - p), std::sqrt(std::max({dot(q - p, q - p), dot(r - q, r - q), dot(p - r, p - r)}))});
-    }
-}
-
-/// Only an edge with exactly two triangles that run along it in opposite directions joins them.
-void Merger::find_neighbours()
-{
-    std::vector<Side> sides;
-    sides.reserve(neighbour_.size());
-    for (Index side = 0; side < neighbour_.size(); ++side) {
-        const Index from = corner(side), to = end_of(side);
-        sides.push_back({std::min(from, to), std::max(from, to), side, from < to});
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.number < b.number;
-    });
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t end = i + 1;
-        while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high)
-            ++end;
-        if (end - i == 2 && sides[i].forward != sides[i + 1].forward) {
-            neighbour_[sides[i].number] = sides[i + 1].number / 3;
-            neighbour_[sides[i + 1].number] = sides[i].number / 3;
-        }
-        i = end;
     }
 }
 
@@ -129,8 +98,11 @@ void Merger::grow_regions()
         FlatFace face{{seed}, {}, {}};
         for (std::size_t next = 0; next < face.triangles.size(); ++next)
             for (Index side = 3 * face.triangles[next]; side < 3 * face.triangles[next] + 3; ++side) {
-                const Index beyond = neighbour_[side];
-                if (beyond == none || region_[beyond] != none || !fits(beyond, seed))
+                const Index across = edges_.beyond(side);
+                if (across == none)
+                    continue;
+                const Index beyond = across / 3;
+                if (region_[beyond] != none || !fits(beyond, seed))
                     continue;
                 region_[beyond] = number;
                 face.triangles.push_back(beyond);
@@ -141,49 +113,36 @@ void Merger::grow_regions()
     }
 }
 
-/// Walks the sides without a neighbour in the region. Where several begin at one point, the next is the one that
-/// closes the wedge to the left of the side just walked, so that loops touch but never cross.
-std::vector<Loop> Merger::loops_of(const FlatFace& face, const Vec3& front) const
+/// Whether the triangle beyond a side belongs to the region too.
+bool Merger::is_inside(Index side, Index region) const
 {
-    std::unordered_map<Index, std::vector<Index>> leaving; // sides by the point at which they begin
-    std::vector<Index> rim;
-    const Index number = region_[face.triangles[0]];
-    for (const Index triangle : face.triangles)
-        for (Index side = 3 * triangle; side < 3 * triangle + 3; ++side)
-            if (neighbour_[side] == none || region_[neighbour_[side]] != number) {
-                leaving[corner(side)].push_back(side);
-                rim.push_back(side);
-            }
+    const Index across = edges_.beyond(side);
+    return across != none && region_[across / 3] == region;
+}
+
+/// Walks the sides without a neighbour in the region: at the end of each, round its point through the region's own
+/// triangles to the next, so that loops touch but never cross.
+std::vector<Loop> Merger::loops_of(const FlatFace& face)
+{
+    const Index region = region_[face.triangles[0]];
     const auto next_of = [&](Index side) {
-        const std::vector<Index>& choices = leaving[end_of(side)];
-        if (choices.size() == 1)
-            return choices[0];
-        const Point& at = soup_.points[end_of(side)];
-        const Vec3 back = soup_.points[corner(side)] - at;
-        Index best = none;
-        double best_turn = infinity;
-        for (const Index choice : choices) {
-            const Vec3 way = soup_.points[end_of(choice)] - at;
-            double turn = std::atan2(dot(cross(way, back), front), dot(back, way)); // clockwise from `back` to `way`
-            turn = turn <= 0 ? turn + 2 * pi : turn;
-            if (turn < best_turn) {
-                best_turn = turn;
-                best = choice;
-            }
-        }
-        return best;
+        Index turned = HalfEdges::next(side);
+        while (is_inside(turned, region))
+            turned = HalfEdges::next(edges_.beyond(turned));
+        return turned;
     };
     std::vector<Loop> loops;
-    std::unordered_map<Index, bool> walked;
-    for (const Index start : rim) {
-        Loop loop;
-        for (Index side = start; side != none && !walked[side]; side = next_of(side)) {
-            walked[side] = true;
-            loop.push_back(corner(side));
-        }
-        if (!loop.empty())
+    for (const Index triangle : face.triangles)
+        for (Index start = 3 * triangle; start < 3 * triangle + 3; ++start) {
+            if (walked_[start] || is_inside(start, region))
+                continue;
+            Loop loop;
+            for (Index side = start; !walked_[side]; side = next_of(side)) {
+                walked_[side] = true;
+                loop.push_back(corner(side));
+            }
             loops.push_back(std::move(loop));
-    }
+        }
     return loops;
 }
 
@@ -194,7 +153,7 @@ bool Merger::trace(FlatFace& face, const Vec3& front)
     double triangles = 0, loops = 0;
     for (const Index triangle : face.triangles)
         triangles += dot(shapes_[triangle].twice_area, front);
-    for (Loop& loop : loops_of(face, front)) {
+    for (Loop& loop : loops_of(face)) {
         Vec3 twice_area;
         for (std::size_t i = 1; i + 1 < loop.size(); ++i)
             twice_area +=
@@ -308,7 +267,6 @@ void Merger::drop_straight_points()
 
 std::vector<FlatFace> Merger::run()
 {
-    find_neighbours();
     grow_regions();
     drop_straight_points();
     std::erase_if(faces_, [](const FlatFace& face) { return face.triangles.empty(); });

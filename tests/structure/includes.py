@@ -54,6 +54,7 @@ PACKAGES = {
     "draco/": "draco",
     "meshoptimizer.h": "meshoptimizer",
     "tiny_gltf.h": "tinygltf",
+    "OpenMesh/": "OpenMeshCore",
     "opensubdiv/": "OpenSubdiv",
     "assimp/": "assimp",
     "gtest/": "GTest",
