@@ -70,7 +70,8 @@ RayQueries::RayQueries(const Scene& scene) : state_(std::make_unique<State>(scen
         state.materials.push_back(resolve(scene, id).material);
         bool see_through = false;
         for (const Material* material : state.varied.possible(id))
-            see_through |= material == nullptr || Bsdf(*material, true).lobes().transparent_to_shadows;
+            see_through |= material == nullptr || std::holds_alternative<Illum>(*material) ||
+                           Bsdf(*material, true).lobes().transparent_to_shadows;
         state.see_through.push_back(state.materials.back() != nullptr && see_through);
     }
     state.prototypes.resize(scene.prototypes.size());

@@ -182,6 +182,10 @@ void record_passage(const Level& level, const Candidate& candidate, double t)
     while (root->outer != nullptr)
         root = root->outer;
     const double cosine = dot(normal, normalized(root->direction));
+    if (std::holds_alternative<Illum>(*material)) { // what stands behind lights through it, never through its front
+        trace.opaque = cosine < 0;
+        return;
+    }
     SeenMaterial seen;
     if (queries.varied->varies(modifier)) {
         Hit hit;

@@ -258,14 +258,15 @@ std::string quoted(const std::string& word)
 } // namespace
 
 bool append_varying(std::string& text, const std::string& modifier, const std::string& name,
-                    const PlaceFunction& function, const std::vector<std::string>& mixed,
-                    const std::function<std::string(const std::string&)>& file_word)
+                    const PlaceFunction& function, const std::vector<std::string>& mixed, const FileWords& file_words)
 {
     const PatternText& read = function.text();
     const bool letters = read.type.ends_with("text");
     std::vector<std::string> words = read.words;
     for (const auto& [at, path] : read.files)
-        words[at] = file_word(path);
+        words[at] = file_words.found(path);
+    for (const auto& [at, contents] : read.made)
+        words[at] = file_words.made(contents);
     words.insert(words.begin(), mixed.begin(), mixed.end());
     const auto transform =
         letters ? std::optional<std::vector<std::string>>(std::in_place) : words_of(function.to_scene());

@@ -28,12 +28,15 @@ void append_material(std::string& text, const std::string& modifier, const std::
 inline const std::string sharp_horizon_comment = "#@horizon sharp";
 void append_sky_brightness(std::string& text, const std::string& modifier, const std::string& name,
                            const SkyBrightness& sky);
+/// What to write where a pattern names a file.
+struct FileWords {
+    std::function<std::string(const std::string& path)> found;
+    std::function<std::string(const std::string& text)> made; ///< for one that is nowhere yet, with this content
+};
 /// A pattern, texture or mixture as it was read.
 /// @param mixed  the words of a mixture's foreground and background; empty for the others
-/// @param file_word  what to write for a file that was found at this path
 /// @return       false when its transform cannot be told by words: it is left out
 bool append_varying(std::string& text, const std::string& modifier, const std::string& name,
-                    const PlaceFunction& function, const std::vector<std::string>& mixed,
-                    const std::function<std::string(const std::string&)>& file_word);
+                    const PlaceFunction& function, const std::vector<std::string>& mixed, const FileWords& file_words);
 
 } // namespace lightwell::scene_text

@@ -2,6 +2,7 @@
 
 #include "importers/radiance/modifier_table.h"
 #include "importers/radiance/radiance.h"
+#include "materials/patterns/place_function.h"
 
 #include <deque>
 #include <fstream>
@@ -80,6 +81,7 @@ private:
     std::string stem_of(const std::string& name);
     std::string stem_of_variant(std::uint32_t prototype, const Bindings& bindings);
     std::string write_mesh_file(const Mesh& mesh, const std::string& name);
+    std::string data_file_of(const PatternText& pattern, const std::string& text, const std::string& name);
     std::string in_parts_folder(const std::string& file_name) const;
 
     const Scene& scene_;
@@ -92,8 +94,9 @@ private:
     std::vector<char> lit_;                      ///< for each prototype, whether it holds emitters or mirrors
     std::deque<Variant> variants_;
     std::map<std::pair<std::uint32_t, std::vector<std::pair<ModifierId, ModifierId>>>, std::string> variant_stems_;
-    std::map<const Mesh*, std::string> mesh_stems_; ///< of the scene's own meshes
-    std::vector<std::string> meshes_;               ///< every mesh file written, in order
+    std::map<const Mesh*, std::string> mesh_stems_;        ///< of the scene's own meshes
+    std::map<const PatternText*, std::string> data_stems_; ///< of patterns whose data are in no file yet
+    std::vector<std::string> meshes_;                      ///< every mesh file written, in order
     std::set<std::string> stems_;
 };
 

@@ -82,9 +82,24 @@ void SceneWriter::define_varying(Output& out, const Modifier& modifier, const Va
     const auto file_word = [&](const std::string& path) {
         return std::filesystem::proximate(path, std::filesystem::absolute(file_).parent_path()).string();
     };
-    if (!append_varying(out.file.text(), parent, encoded_name(modifier.name), *varying.function, mixed, file_word))
+    const auto made_word = [&](const std::string& text) {
+        return data_file_of(varying.function->text(), text, modifier.name);
+    };
+    if (!append_varying(out.file.text(), parent, encoded_name(modifier.name), *varying.function, mixed,
+                        {file_word, made_word}))
         report_.add(Finding::approximated, modifier.name,
                     "pattern under a map that is no similarity: written without its transform");
+}
+
+/// Where data that came with a pattern are written: beside the parts, once.
+std::string SceneWriter::data_file_of(const PatternText& pattern, const std::string& text, const std::string& name)
+{
+    std::string& stem = data_stems_[&pattern];
+    if (stem.empty()) {
+        stem = stem_of(name);
+        write_text_atomically(parts_ / (stem + ".dat"), text);
+    }
+    return in_parts_folder(stem + ".dat");
 }
 
 void SceneWriter::write_part(Output& out, const Part& part, const Place& place)

@@ -26,6 +26,7 @@ public:
 
     std::size_t dimensions() const noexcept { return dimensions_.size(); }
     const std::vector<Dimension>& axes() const noexcept { return dimensions_; }
+    const std::vector<double>& values() const noexcept { return values_; } ///< the last dimension runs fastest
     /// Linear between the values; outside, continued for one step, then falling off with the distance.
     /// @param coordinates  one for each dimension
     double at(const double* coordinates) const noexcept;

@@ -74,7 +74,7 @@ public:
         const Form* form = form_of(request_.type);
         if (form == nullptr)
             throw InputError{request_.place, "type " + request_.type + " is no pattern that is read"};
-        text_ = {request_.type, {}, request_.numbers, {}, {}};
+        text_ = {request_.type, {}, request_.numbers, {}, {}, {}};
         PlaceFunction::What what = of_form(*form);
         text_.words.assign(request_.words.begin(), request_.words.begin() + static_cast<std::ptrdiff_t>(next_));
         const Affine to_scene =

@@ -24,6 +24,7 @@ struct PatternText {
     std::vector<double> numbers;
     std::vector<std::pair<std::size_t, std::string>> files; ///< words that name files, and where those were found
     std::string contents;                                   ///< of all its files, or a number that stands for them
+    std::vector<std::pair<std::size_t, std::string>> made;  ///< words that name files which are nowhere yet: their text
 };
 
 /// A colour, a brightness, a displacement or a share that varies from place to place.
