@@ -1,3 +1,4 @@
+#include "engine/base/files.h"
 #include "importers/radiance/scene_reader.h"
 
 #include <cstdlib>
@@ -58,6 +59,10 @@ std::optional<fs::path> SceneReader::find_quietly(const fs::path& wanted, const 
 
 fs::path SceneReader::find(const std::string& name, const OpenFile& file, const std::string& place) const
 {
+    // What oconv here has compiled is read as it is; of what others have compiled the text is wanted.
+    if (const auto own = fs::path(name).extension() == ".oct" ? find_quietly(name, file) : std::nullopt)
+        if (is_compiled_scene(MappedFile(*own).bytes()))
+            return *own;
     const fs::path wanted = text_of_compiled(name);
     if (const auto found = find_quietly(wanted, file))
         return *found;

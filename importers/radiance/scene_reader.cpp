@@ -79,8 +79,9 @@ void SceneReader::read_file(const std::filesystem::path& path, const OpenFile* f
                             Target target)
 {
     const MappedFile mapped(path);
-    if (is_compiled(mapped.bytes()))
-        throw InputError{place, path.string() + " is a compiled scene, which is not read",
+    const bool compiled = is_compiled_scene(mapped.bytes());
+    if (!compiled && is_compiled(mapped.bytes()))
+        throw InputError{place, path.string() + " is a compiled scene of another program, which is not read",
                          "give the text that it was made from"};
     const std::filesystem::path canonical = std::filesystem::weakly_canonical(path);
     std::vector<std::string> names{path.filename().string()};
@@ -90,7 +91,11 @@ void SceneReader::read_file(const std::filesystem::path& path, const OpenFile* f
             throw InputError{place, "files refer to each other in a circle: " + chain_of_names(names),
                              "take one of the references out"};
     }
-    read_text(mapped.bytes(), canonical, path.string(), from, target);
+    files_.insert(canonical);
+    if (compiled)
+        read_compiled(mapped.bytes(), canonical, path.string(), from, target);
+    else
+        read_text(mapped.bytes(), canonical, path.string(), from, target);
 }
 
 void SceneReader::read_text(std::string_view text, const std::filesystem::path& path, const std::string& name,
@@ -182,6 +187,9 @@ void SceneReader::read_comment(OpenFile& file, std::string_view comment, Target 
         View view = parse_view(std::string(words, comment.data() + comment.size()), place);
         view.name = decoded_name(fields[1]);
         scene_.views.push_back(std::move(view));
+    } else if (fields[0] == "#@is" && fields.size() == 2 && listed_modifiers_ != nullptr) {
+        const auto meaning = target.scope.find(decoded_name(fields[1]));
+        listed_modifiers_->push_back(fields[1] == "void" || !meaning ? void_modifier : meaning->id);
     } else if (trimmed(comment) == sharp_horizon_comment) {
         file.sharp_horizon = true;
     } else if (fields[0].starts_with("#@grid") && target.first_file) {

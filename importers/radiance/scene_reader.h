@@ -1,5 +1,6 @@
 #pragma once
 
+#include "importers/radiance/compiled_scene.h"
 #include "importers/radiance/inline_commands.h"
 #include "importers/radiance/modifier_table.h"
 #include "importers/radiance/ply_part.h"
@@ -21,6 +22,7 @@ public:
     SceneReader(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins,
                 const RadianceReadOptions& options);
     Scene read();
+    NamedScene read_sources(const std::vector<SceneSource>& sources);
 
 private:
     /// A file that is being read; the chain of them leads back to the first.
@@ -66,6 +68,9 @@ private:
     /// @param path  where the text's references are looked for; `name` is for messages
     void read_text(std::string_view text, const std::filesystem::path& path, const std::string& name,
                    const OpenFile* from, Target target);
+    /// A compiled scene in the place of text; its names become known.
+    void read_compiled(std::string_view bytes, const std::filesystem::path& path, const std::string& name,
+                       const OpenFile* from, Target target);
     void read_primitive(OpenFile& file, Primitive& primitive, Target target);
     /// What `#@from` named is where the surfaces of the primitive after it come from.
     void note_object(std::size_t first_surface);
@@ -122,6 +127,8 @@ private:
     KeptMeshes& kept_;
     SceneOrigins& origins_;
     CommandPolicy policy_;
+    std::set<std::filesystem::path> files_;               ///< that were read
+    std::vector<ModifierId>* listed_modifiers_ = nullptr; ///< those of the compiled scene that is being read
     Scene scene_;
     ModifierTable table_;
     Scope scope_;

@@ -65,6 +65,17 @@ void SceneWriter::write()
     });
 }
 
+std::string SceneWriter::modifiers_text()
+{
+    Output out{TextFile({})};
+    append_views_and_grids(out.file.text());
+    for (std::size_t i = 0; i < scene_.modifiers.size(); ++i) {
+        const std::string word = use(out, static_cast<ModifierId>(i));
+        out.file.text() += "#@is " + word + '\n';
+    }
+    return std::move(out.file.text());
+}
+
 void SceneWriter::study_prototypes()
 {
     for (const Part& part : scene_.prototypes) {

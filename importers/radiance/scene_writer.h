@@ -31,6 +31,8 @@ class SceneWriter {
 public:
     SceneWriter(const Scene& scene, const std::filesystem::path& file, const WriteOptions& options, Report& report);
     void write();
+    /// All modifiers, views and grids as text; after each modifier a line `#@is WORD`, in their order.
+    std::string modifiers_text();
 
 private:
     using Bindings = std::vector<Binding>;

@@ -80,7 +80,10 @@ void SceneWriter::define_varying(Output& out, const Modifier& modifier, const Va
     const std::string parent = use(out, modifier.parent);
     // Files stay where they are; the text names them from its own folder.
     const auto file_word = [&](const std::string& path) {
-        return std::filesystem::proximate(path, std::filesystem::absolute(file_).parent_path()).string();
+        const std::filesystem::path whole = std::filesystem::absolute(path);
+        return (file_.empty() ? whole
+                              : std::filesystem::proximate(whole, std::filesystem::absolute(file_).parent_path()))
+            .string();
     };
     const auto made_word = [&](const std::string& text) {
         return data_file_of(varying.function->text(), text, modifier.name);

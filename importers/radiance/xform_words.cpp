@@ -22,6 +22,8 @@ std::optional<std::size_t> numbers_after(const std::string& word)
 {
     if (word == "-t")
         return 3;
+    if (word == "-affine")
+        return 12;
     if (word == "-s" || word == "-i" || word == "-a" || word == "-rx" || word == "-ry" || word == "-rz")
         return 1;
     if (word == "-mx" || word == "-my" || word == "-mz")

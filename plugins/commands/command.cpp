@@ -19,7 +19,9 @@ struct NamedCommand {
 constexpr NamedCommand all[] = {
     {"genblinds", generate},  {"genbox", generate}, {"gendaylit", generate}, {"genprism", generate},
     {"genrev", generate},     {"gensky", generate}, {"gensurf", generate},   {"genworm", generate},
-    {"replmarks", transform}, {"xform", transform},
+    {"getinfo", getinfo},     {"oconv", oconv},     {"pvalue", pvalue},      {"rcalc", rcalc},
+    {"replmarks", transform}, {"rpict", rpict},     {"rtrace", rtrace},      {"vwrays", vwrays},
+    {"xform", transform},
 };
 
 std::string plain_name(const std::string& program)
