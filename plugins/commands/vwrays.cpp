@@ -85,8 +85,8 @@ private:
     {
         PathRandom random(0, number_++, 0);
         const UnitSquare jitter = random.pair(), lens = random.pair();
-        const double px = (x + wish_.jitter * (jitter.x - 0.5)) / wish_.view.columns;
-        const double py = (y + wish_.jitter * (jitter.y - 0.5)) / wish_.view.rows;
+        const double px = (x + wish_.jitter * (jitter.u - 0.5)) / wish_.view.columns;
+        const double py = (y + wish_.jitter * (jitter.v - 0.5)) / wish_.view.rows;
         ViewRay ray;
         const bool seen = camera_.has_lens() ? camera_.ray(px, py, lens, ray) : camera_.ray(px, py, ray);
         if (!seen)

@@ -92,7 +92,7 @@ TEST(CompiledScenes, StandInForInstances)
     folder.write("leaf.rad", "void plastic g 0 0 5 .1 .5 .1 0 0\ng sphere s 0 0 4 0 0 0 1\n");
     compile("oconv -f leaf.rad", "leaf.oct");
     std::filesystem::remove("leaf.rad");
-    folder.write("tree.rad", "void instance a 4 leaf.oct -t 5 0 0 0 0\nvoid instance b 1 leaf.oct 0 0\n");
+    folder.write("tree.rad", "void instance a 5 leaf.oct -t 5 0 0 0 0\nvoid instance b 1 leaf.oct 0 0\n");
     const Scene scene = read("tree.rad");
     EXPECT_EQ(scene.prototypes.size(), 1u);
     EXPECT_EQ(expanded_count(scene), 2u);

@@ -92,7 +92,7 @@ TEST(Rtrace, BadWordsAndRaysAreRefused)
         {"rtrace gone.oct", "rtrace: fatal - cannot find octree \"gone.oct\""},
         {"rtrace -ab x lamp.oct", "rtrace: fatal - command line error at '-ab'"},
         {"rtrace", "rtrace: fatal - missing octree argument"},
-        {"rtrace -h lamp.oct", "rtrace: fatal - bad number on standard input: \"x\""}};
+        {"rtrace -w -h lamp.oct", "rtrace: fatal - bad number on standard input: \"x\""}};
     for (const auto& [line, message] : cases) {
         const Ran ran = run(std::string(line), "x y z\n");
         EXPECT_NE(ran.status, 0) << line;
