@@ -17,8 +17,10 @@
 namespace lightwell::commands {
 namespace {
 
-/// Columns that `in(n)` can ask for, and channels behind them for what is known of the record.
+/// Columns of a record, and channels behind them for what is known of it.
 constexpr int most_columns = 256;
+/// Those that `in(n)` can ask for: as many as `select` takes.
+constexpr int most_asked = 63;
 constexpr int count_channel = most_columns + 1, record_channel = most_columns + 2, output_channel = most_columns + 3;
 constexpr int channels = output_channel;
 
@@ -64,7 +66,7 @@ bool read_binary(const std::string& word, Wish& wish)
 void add_known(Definitions& definitions)
 {
     std::string in = "in(n) = if(n - .5, select(n";
-    for (int i = 1; i <= most_columns; ++i)
+    for (int i = 1; i <= most_asked; ++i)
         in += fmt::format(", ${}", i);
     in += fmt::format("), ${});", count_channel);
     definitions.add(in + fmt::format(" recno = ${}; outno = ${};", record_channel, output_channel) +

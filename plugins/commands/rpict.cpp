@@ -144,7 +144,7 @@ void render(const std::vector<std::string>& words, const Wish& asked, std::ostre
     Picture& picture = result.picture;
     if (wish.settings.irradiance)
         show_irradiance(picture);
-    picture.header = {{"history", run_history(loaded.header, words)}, {"VIEW", ' ' + to_text(view)}};
+    picture.header = {{"history", run_history(loaded.header, words)}, {"VIEW", to_text(view)}};
     const double aspect = wish.view.columns / (Camera(view).aspect() * wish.view.rows);
     constexpr double square = 0.005; // what rounding to whole pixels makes
     if (!(std::fabs(aspect - 1) < square))

@@ -20,6 +20,12 @@ Scene read(const std::string& name)
     return read_radiance_sources({{name}}, report).scene;
 }
 
+std::string modifier_name(const Scene& scene, const Surface& surface)
+{
+    return surface.modifier == void_modifier ? "void"
+                                             : scene.modifiers[static_cast<std::size_t>(surface.modifier)].name;
+}
+
 void expect_same(const Scene& a, const Scene& b)
 {
     ASSERT_EQ(a.root.surfaces.size(), b.root.surfaces.size());
@@ -28,8 +34,7 @@ void expect_same(const Scene& a, const Scene& b)
         EXPECT_EQ(x.shape, y.shape);
         EXPECT_EQ(x.index, y.index);
         EXPECT_EQ(x.name, y.name);
-        EXPECT_EQ(a.modifiers[static_cast<std::size_t>(x.modifier)].name,
-                  b.modifiers[static_cast<std::size_t>(y.modifier)].name);
+        EXPECT_EQ(modifier_name(a, x), modifier_name(b, y));
     }
     EXPECT_EQ(a.root.points, b.root.points);
     EXPECT_EQ(a.prototypes.size(), b.prototypes.size());
