@@ -12,9 +12,10 @@ namespace {
 constexpr double lowest_half_height = 1e-70;
 
 /// exp(-tan^2 / roughness^2) of the facet that mirrors one direction into the other; half is not normalized.
-double facet_share(const Vec3& half, double roughness)
+double facet_share(const Vec3& half, double u, double v)
 {
-    return std::exp(-(half.x * half.x + half.y * half.y) / (half.z * half.z * roughness * roughness));
+    const double x = half.x / u, y = half.y / v;
+    return std::exp(-(x * x + y * y) / (half.z * half.z));
 }
 
 } // namespace
@@ -25,16 +26,16 @@ ScatteredLobe Ward::scattered(Direction to_viewer, Direction to_light) const noe
     if (!(to_viewer.z > 0 && to_light.z > 0 && half.z > lowest_half_height))
         return {};
     const double z2 = half.z * half.z;
-    const double value = facet_share(half, roughness_) * dot(half, half) / (pi * roughness_ * roughness_ * z2 * z2);
+    const double value = facet_share(half, u_, v_) * dot(half, half) / (pi * u_ * v_ * z2 * z2);
     // Density is value * cos_light / weight, with the weight 2 cos_light / (cos_viewer + cos_light).
     return {value, value * half.z / 2};
 }
 
 Direction Ward::sample(Direction to_viewer, UnitSquare u) const noexcept
 {
-    const double slope = roughness_ * std::sqrt(-std::log1p(-u.u));
+    const double slope = std::sqrt(-std::log1p(-u.u));
     const double azimuth = 2 * pi * u.v;
-    const Vec3 half{slope * std::cos(azimuth), slope * std::sin(azimuth), 1};
+    const Vec3 half{u_ * slope * std::cos(azimuth), v_ * slope * std::sin(azimuth), 1};
     const Vec3 mirrored = half * (2 * dot(to_viewer, half) / dot(half, half)) - to_viewer;
     return normalized(mirrored);
 }

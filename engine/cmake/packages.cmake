@@ -8,6 +8,7 @@ find_package(PNG REQUIRED)                 # engine/pictures
 find_package(JPEG REQUIRED)                # engine/pictures
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(pugixml REQUIRED)            # materials/measured
 find_package(tomlplusplus REQUIRED)        # engine/base
 find_package(CLI11 REQUIRED)               # plugins/cli
 find_package(OpenMesh REQUIRED)            # engine/geometry

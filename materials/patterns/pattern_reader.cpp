@@ -20,23 +20,15 @@ struct Form {
     enum class Source { formula, data, picture, letters, spectrum, spectral_data, spectral_formula } source;
 };
 constexpr Form forms[] = {
-    {"colorfunc", 3, Form::Source::formula},
-    {"brightfunc", 1, Form::Source::formula},
-    {"texfunc", 3, Form::Source::formula},
-    {"mixfunc", 1, Form::Source::formula},
-    {"colordata", 3, Form::Source::data},
-    {"brightdata", 1, Form::Source::data},
-    {"texdata", 3, Form::Source::data},
-    {"mixdata", 1, Form::Source::data},
-    {"colorpict", 3, Form::Source::picture},
-    {"mixpict", 1, Form::Source::picture},
-    {"colortext", 3, Form::Source::letters},
-    {"brighttext", 1, Form::Source::letters},
-    {"mixtext", 0, Form::Source::letters},
-    {"spectrum", 0, Form::Source::spectrum},
-    {"specfile", 0, Form::Source::spectral_data},
-    {"specdata", 1, Form::Source::spectral_data},
-    {"specfunc", 1, Form::Source::spectral_formula},
+    {"colorfunc", 3, Form::Source::formula},      {"brightfunc", 1, Form::Source::formula},
+    {"texfunc", 3, Form::Source::formula},        {"mixfunc", 1, Form::Source::formula},
+    {"colordata", 3, Form::Source::data},         {"brightdata", 1, Form::Source::data},
+    {"texdata", 3, Form::Source::data},           {"mixdata", 1, Form::Source::data},
+    {"colorpict", 3, Form::Source::picture},      {"mixpict", 1, Form::Source::picture},
+    {"specpict", 1, Form::Source::picture},       {"colortext", 3, Form::Source::letters},
+    {"brighttext", 1, Form::Source::letters},     {"mixtext", 0, Form::Source::letters},
+    {"spectrum", 0, Form::Source::spectrum},      {"specfile", 0, Form::Source::spectral_data},
+    {"specdata", 1, Form::Source::spectral_data}, {"specfunc", 1, Form::Source::spectral_formula},
 };
 
 const Form* form_of(std::string_view type) noexcept
@@ -153,7 +145,7 @@ private:
     PlaceFunction::What table(const Form& form)
     {
         PlaceFunction::Table table = {no_program(), {}, nullptr, no_program()};
-        const std::vector<std::string> functions = words(form.values, "the name of a function");
+        std::vector<std::string> functions = words(form.values, "the name of a function");
         std::size_t dimensions = 2;
         if (form.source == Source::picture) {
             const fs::path path = file("a picture");
@@ -165,6 +157,9 @@ private:
         }
         const std::string context = function_file();
         table.coordinates = compile(words(dimensions, "a coordinate"), context);
+        // The one function of a picture of spectra is of each channel.
+        if (form.type == "specpict")
+            functions.resize(3, functions.front());
         table.values = of_table_values(functions, form.source == Source::picture ? 3 : form.values, context);
         return table;
     }

@@ -6,6 +6,7 @@
 #include "engine/pictures/jpeg.h"
 #include "engine/pictures/png.h"
 #include "engine/pictures/rgbe.h"
+#include "materials/patterns/spectral_picture.h"
 
 #include <algorithm>
 #include <array>
@@ -67,6 +68,8 @@ PictureTable PictureTable::read(const std::filesystem::path& file)
     std::string start;
     {
         const MappedFile mapped(file);
+        if (is_spectral_picture(mapped.bytes()))
+            return read_spectral_picture(mapped.bytes(), file.string());
         start = mapped.bytes().substr(0, 8);
     }
     if (start.starts_with("#?"))

@@ -12,7 +12,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 BASE_ROWS = [
     {"engine/base"},
     {"engine/sampling", "engine/pictures", "engine/sky"},
-    {"materials/functions"},
+    {"materials/functions", "materials/measured"},
     {"materials/patterns"},
     {"materials"},
     {"engine/scene"},
@@ -53,6 +53,7 @@ PACKAGES = {
     "CLI/": "CLI11",
     "draco/": "draco",
     "meshoptimizer.h": "meshoptimizer",
+    "pugixml.hpp": "pugixml",
     "tiny_gltf.h": "tinygltf",
     "OpenMesh/": "OpenMeshCore",
     "opensubdiv/": "OpenSubdiv",

@@ -110,6 +110,62 @@ TEST(PatternData, DisplayPicturesAreDecoded)
                 1e-4);
 }
 
+/// Two pixels of four bands from 780 to 380 nm, exposed twofold: one even, one red alone.
+std::string spectral_picture()
+{
+    std::string text = "#?RADIANCE\nNCOMP=4\nWAVELENGTH_SPLITS= 780 588 480 380\nFORMAT=Radiance_spectra\n"
+                       "EXPOSURE=2\n\n-Y 1 +X 2\n";
+    const unsigned char pixels[] = {100, 100, 100, 100, 129, 0, 200, 0, 0, 129};
+    text.append(reinterpret_cast<const char*>(pixels), sizeof pixels);
+    return text;
+}
+
+TEST(PatternData, PicturesOfSpectraAreReducedToTheirColours)
+{
+    const PatternFolder folder;
+    folder.write("p.hsr", spectral_picture());
+    const auto at = [&](double u) {
+        PatternPlace place;
+        place.position = {u, 0.5, 0};
+        return folder.pattern("specpict", {"noneg", "p.hsr", ".", "Px", "Py"})->at(place);
+    };
+    // 100.5 / 256 * 2^(129 - 128) / 2, the same at all wavelengths.
+    for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(at(0.5)[channel], 100.5 / 256, 1e-3);
+    // 580 to 680 nm is red.
+    EXPECT_GT(at(1.5).r, 0.6);
+    EXPECT_GT(at(1.5).r, 3 * at(1.5).g);
+    EXPECT_LT(at(1.5).b, 0.1);
+}
+
+TEST(PatternData, DamagedPicturesOfSpectraAreRefusedWithTheirByte)
+{
+    const PatternFolder folder;
+    const std::string good = spectral_picture();
+    const auto refused = [&](const std::string& bytes) -> std::string {
+        folder.write("p.hsr", bytes);
+        try {
+            folder.pattern("specpict", {"noneg", "p.hsr", ".", "Px", "Py"});
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string text = good;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    EXPECT_NE(refused(good.substr(0, good.size() - 1)).find("the picture ends before its last line"),
+              std::string::npos);
+    EXPECT_NE(refused(with("+X 2", "+X 999999999")).find("999999999 x 1 pixels"), std::string::npos);
+    EXPECT_NE(refused(with("NCOMP=4", "NCOMP=-4")).find("pixels of -4 components"), std::string::npos);
+    EXPECT_NE(refused(with("-Y 1", "+Y 1")).find("no size"), std::string::npos);
+    EXPECT_NE(refused(with("780 588", "0 588")).find("do not fall"), std::string::npos);
+    EXPECT_NE(refused(with("EXPOSURE=2", "EXPOSURE=0")).find("exposure"), std::string::npos);
+    for (std::size_t cut = 0; cut < good.size(); ++cut)
+        EXPECT_NE(refused(good.substr(0, cut)), "accepted");
+}
+
 TEST(PatternData, MissingAndDamagedFilesAreNamed)
 {
     const PatternFolder folder;

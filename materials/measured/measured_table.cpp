@@ -1,0 +1,54 @@
+#include "materials/measured/measured_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightwell {
+
+double DirectionTable::around(const DiscPoint& in, double radius) const noexcept
+{
+    constexpr int count = 16;
+    double sum = 0;
+    int found = 0;
+    for (int i = 0; i < count; ++i) {
+        const double turn = 2 * pi * i / count;
+        const DiscPoint out{in.x + radius * std::cos(turn), in.y + radius * std::sin(turn)};
+        if (out.x * out.x + out.y * out.y < 1) {
+            sum += value_per_sr(in, out);
+            ++found;
+        }
+    }
+    return found > 0 ? sum / found : 0;
+}
+
+MeasuredTable::MeasuredTable(Parts parts, About about) : parts_(std::move(parts)), about_(std::move(about))
+{
+    // One way through tells the other by reciprocity.
+    if (parts_.from_front == nullptr && parts_.from_back != nullptr)
+        parts_.from_front = parts_.from_back->reversed();
+    if (parts_.from_back == nullptr && parts_.from_front != nullptr)
+        parts_.from_back = parts_.from_front->reversed();
+    const auto most = [](const DirectionTable* table) { return table != nullptr ? table->most_hemispherical() : 0; };
+    // Reflection and transmission are largest at different angles: both together are asked along a few.
+    constexpr int steps = 64;
+    for (const bool front : {true, false})
+        for (int i = 0; i < steps * steps; ++i) {
+            const double radius = (i / steps + 0.5) / steps, azimuth = 2 * pi * (i % steps) / steps;
+            const DiscPoint in{radius * std::cos(azimuth), radius * std::sin(azimuth)};
+            const double sum = (reflection(front) != nullptr ? reflection(front)->hemispherical(in) : 0) +
+                               (transmission(front) != nullptr ? transmission(front)->hemispherical(in) : 0);
+            scale_ = std::fmin(scale_, sum > 1 ? 1 / sum : 1);
+        }
+    for (const bool front : {true, false})
+        for (const double single : {most(reflection(front)), most(transmission(front))})
+            scale_ = std::fmin(scale_, single > 1 ? 1 / single : 1);
+}
+
+double MeasuredTable::value_per_sr(const Direction& incident, const Direction& out) const noexcept
+{
+    const bool front = incident.z > 0;
+    const DirectionTable* table = front == (out.z > 0) ? reflection(front) : transmission(front);
+    return table != nullptr ? scale_ * table->value_per_sr({-incident.x, -incident.y}, {out.x, out.y}) : 0;
+}
+
+} // namespace lightwell
