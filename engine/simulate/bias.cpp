@@ -11,6 +11,8 @@ namespace {
 constexpr double least_level = 0.01;
 /// Plain paths of each checked value to begin with.
 constexpr int first_paths = 16 * replicates;
+/// The most paths that the check takes, as a share of all: each is longer than those of the values.
+constexpr double check_share = 1.0 / 16;
 
 /// The part of a mean that is not likely to be noise.
 /// Source  James, Stein 1961, the positive part
@@ -43,13 +45,14 @@ BiasEstimate bias_of(const std::vector<Checked>& points)
     return bias;
 }
 
-BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, double most_paths)
+BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, double all_paths)
 {
     BiasCheck check;
     for (int paths = first_paths;; paths *= 4) {
         check.points = measure(paths);
         check.whole = bias_of(check.points);
-        if (check.whole.standard_error <= wanted || 4.0 * paths * static_cast<double>(check.points.size()) > most_paths)
+        if (check.whole.standard_error <= wanted ||
+            4.0 * paths * static_cast<double>(check.points.size()) > check_share * all_paths)
             return check;
     }
 }

@@ -13,9 +13,8 @@ constexpr std::size_t pilot_sensors = 64;
 constexpr int pilot_paths = 8 * pilot_samples;
 /// From this number on, sensors share records of ambient light.
 constexpr std::size_t many_sensors = 2000;
-/// Sensors checked against plain path tracing, and the most paths that takes, as a share of all.
+/// Sensors checked against plain path tracing.
 constexpr std::size_t checked_sensors = 32;
-constexpr double check_share = 0.5;
 
 /// Keeps the random numbers of direct light and of rays apart.
 constexpr std::uint64_t direct_salt = 0x64697265;
@@ -203,7 +202,7 @@ void add_bias(GridResult& result, const SensorTask& plain, int threads, Teller& 
         return points;
     };
     const double all_paths = static_cast<double>(result.samples) * static_cast<double>(plain.places.size());
-    const BiasCheck check = check_bias(measure, result.median_relative_error, check_share * all_paths);
+    const BiasCheck check = check_bias(measure, result.median_relative_error, all_paths);
     result.bias = check.whole;
     const LocalBias local(check.whole, check.points);
     for (std::size_t i = 0; i < plain.places.size(); ++i)

@@ -107,9 +107,9 @@ struct BiasCheck {
     BiasEstimate whole;
 };
 /// Four times the paths, from 16 in each replicate, until the mean bias is known as well as `wanted` (relative), or
-/// until the next step would take more than `most_paths` in all.
+/// until the next step would take more than a share of all the paths of the values.
 /// @param  measure  the checked values, each by so many plain paths
-BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, double most_paths);
+BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, double all_paths);
 
 /// The bias to expect of each value: the mean one, and what the checked values nearby show beyond it, both less the
 /// part that noise of the check explains. 0 where the check cannot tell a bias from noise.

@@ -12,8 +12,6 @@ namespace {
 /// The pilot run looks at an even lattice of pixels, as many as tell the median to a few percent; the check against
 /// plain path tracing at fewer, with more paths.
 constexpr int pilot_columns = 24, pilot_rows = 16, check_columns = 8, check_rows = 6;
-/// The most paths that the check takes, as a share of all.
-constexpr double check_share = 1.0 / 16;
 /// Records of ambient light are looked for at every so many pixels, then between them.
 constexpr int first_stride = 32, last_stride = 4;
 /// They are used only where so large a share of the pixels shows the same surface as the next one: leaves and needles
@@ -215,7 +213,7 @@ void add_bias(PictureResult& result, const PixelTask& plain, const Tile& wanted,
         return points;
     };
     const double all_paths = static_cast<double>(result.samples) * picture.width * picture.height;
-    const BiasCheck check = check_bias(measure, result.median_relative_error, check_share * all_paths);
+    const BiasCheck check = check_bias(measure, result.median_relative_error, all_paths);
     result.bias = check.whole;
     const LocalBias local(check.whole, check.points);
     std::vector<float>& channel = picture.add_channel("bias.Y");
