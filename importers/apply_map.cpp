@@ -2,6 +2,7 @@
 #include "importers/choose_materials.h"
 #include "importers/double_panes.h"
 #include "importers/layer_rules.h"
+#include "importers/luminaires.h"
 #include "importers/name_modifiers.h"
 #include "importers/questions.h"
 #include "importers/rebuild_parts.h"
@@ -66,16 +67,23 @@ std::string in_short(const LayerRule& rule)
         add("area_m2 = \"" + end(rule.area_m2.low) + ".." + end(rule.area_m2.high) + '"');
     if (rule.size_m != NumberRange{})
         add("size_m = \"" + end(rule.size_m.low) + ".." + end(rule.size_m.high) + '"');
-    return text + " -> " + rule.use;
+    text += " -> " + rule.use;
+    if (rule.photometry)
+        text += (rule.use.empty() ? "" : ", ") + std::string("luminaire ") + rule.luminaire.filename().string();
+    return text;
 }
 
-std::vector<RuleHits> count_hits(const Scene& scene, const LayerMap& map, const std::vector<Choice>& choices)
+std::vector<RuleHits> count_hits(const Scene& scene, const LayerMap& map, const std::vector<Choice>& choices,
+                                 const std::vector<PlacedLuminaire>& luminaires)
 {
     std::vector<RuleHits> hits;
     for (const LayerRule& rule : map.rules)
         hits.push_back({rule.line, in_short(rule), 0, 0});
     if (hits.empty())
         return hits;
+    for (const PlacedLuminaire& luminaire : luminaires)
+        if (const auto rule = static_cast<std::size_t>(luminaire.rule); map.rules[rule].use.empty())
+            ++hits[rule].surfaces;
     for (const auto& [id, amount] : surface_amounts(scene)) {
         const int rule = id == void_modifier ? -1 : choices[static_cast<std::size_t>(id)].rule;
         if (rule < 0)
@@ -141,7 +149,9 @@ void note_sides_without_light(Imported& imported, const LayerMap& map)
 std::vector<RuleHits> apply_layer_map(Imported& imported, const LayerMap& map)
 {
     std::vector<Choice> choices = choose_materials(imported, map);
-    std::vector<RuleHits> hits = count_hits(imported.scene, map, choices);
+    imported.report.add(map.report);
+    const std::vector<PlacedLuminaire> luminaires = find_luminaires(imported, map, choices);
+    std::vector<RuleHits> hits = count_hits(imported.scene, map, choices, luminaires);
     const std::size_t first_spare = choices.size();
     set_spare_panes_apart(imported, choices);
     const Rebuilt rebuilt = rebuild_parts(imported.scene, choices);
@@ -149,6 +159,7 @@ std::vector<RuleHits> apply_layer_map(Imported& imported, const LayerMap& map)
     note_shared(imported, choices, rebuilt.shared_surfaces);
     note_sides_without_light(imported, map);
     name_modifiers(imported, choices);
+    add_luminaires(imported, map, luminaires);
     ask_about_lamps(imported);
     return hits;
 }

@@ -125,16 +125,21 @@ struct RuleUse {
     std::vector<bool> matched, won;
 };
 
-/// The last rule that matches the key of a modifier; -1 when none does.
+/// The last rule with a material that matches the key of a modifier; -1 when none does.
+/// @param luminaire  becomes the last rule with a luminaire
 int winning_rule(const LayerMap& map, const SurfaceKey& key, std::size_t modifier, const GeometryClasses& classes,
-                 RuleUse& use)
+                 RuleUse& use, int& luminaire)
 {
     int winner = -1;
     for (std::size_t i = map.rules.size(); i-- > 0;) {
         if (!rule_matches(map.rules[i], key) || !classes.fits(modifier, i))
             continue;
         use.matched[i] = true;
-        if (winner < 0) {
+        if (map.rules[i].photometry && luminaire < 0) {
+            use.won[i] = true;
+            luminaire = static_cast<int>(i);
+        }
+        if (winner < 0 && !map.rules[i].use.empty()) {
             use.won[i] = true;
             winner = static_cast<int>(i);
         }
@@ -150,6 +155,17 @@ Choice choice_without_rule(const SurfaceKey& key, const LayerMap& map, const Mat
     if (const Material* own = key.material.empty() ? nullptr : names.of_file(key.material))
         return MaterialNames::from_file(key.material, *own, EmissionSide::front);
     return names.named(fallback_material, EmissionSide::front, "library");
+}
+
+/// Symbols that a rule makes luminaires of.
+void use_bare_inserts(const Imported& imported, const LayerMap& map, RuleUse& use)
+{
+    for (const BareInsert& insert : imported.bare_inserts)
+        for (std::size_t i = map.rules.size(); i-- > 0;)
+            if (places_luminaire(map.rules[i], insert.key)) {
+                use.matched[i] = use.won[i] = true;
+                break;
+            }
 }
 
 /// Surfaces by modifier; those in prototypes count once.
@@ -225,7 +241,8 @@ std::vector<Choice> choose_materials(Imported& imported, const LayerMap& map)
 {
     const MaterialNames names{imported};
     for (const LayerRule& rule : map.rules) // unknown names are errors even where no surface would get them
-        names.named(rule.use, rule.side, place_of(map, rule));
+        if (!rule.use.empty())
+            names.named(rule.use, rule.side, place_of(map, rule));
     const GeometryClasses classes{imported, map};
     std::vector<Choice> choices(imported.scene.modifiers.size());
     RuleUse use{std::vector<bool>(map.rules.size()), std::vector<bool>(map.rules.size())};
@@ -238,7 +255,10 @@ std::vector<Choice> choose_materials(Imported& imported, const LayerMap& map)
         const SurfaceKey& key = imported.keys[i];
         if (is_placeholder(imported.scene.modifiers[i])) {
             choices[i].kind = Choice::Kind::inherited; // rules are for the keys that instances put in its place
-        } else if (const int winner = winning_rule(map, key, i, classes, use); winner >= 0) {
+            continue;
+        }
+        int luminaire = -1;
+        if (const int winner = winning_rule(map, key, i, classes, use, luminaire); winner >= 0) {
             const LayerRule& rule = map.rules[static_cast<std::size_t>(winner)];
             choices[i] = names.named(rule.use, rule.side, place_of(map, rule));
             choices[i].rule = winner;
@@ -247,7 +267,9 @@ std::vector<Choice> choose_materials(Imported& imported, const LayerMap& map)
             if (map.default_material.empty() && (key.material.empty() || !names.of_file(key.material)))
                 unmapped.push_back(i);
         }
+        choices[i].luminaire = luminaire;
     }
+    use_bare_inserts(imported, map, use);
     note_useless(imported, map, use);
     note_fallback(imported, unmapped);
     return choices;

@@ -19,6 +19,9 @@ struct Choice {
     const Material* definition = nullptr;    ///< of the library or of Imported::file_materials
     EmissionSide side = EmissionSide::front; ///< for emitters
     int rule = -1;                           ///< of the map, which decided; -1: none
+    int luminaire = -1;                      ///< the last rule with a measured luminaire that fits; -1: none
+    /// An emitter that is part of a luminaire: eyes see it, the luminaire's distribution gives its light.
+    bool seen_only() const { return kind == Kind::material && luminaire >= 0 && is_emitter(*definition); }
 };
 
 /// Modifiers beyond the keys are complete already; afterwards each has a key with its name as layer.

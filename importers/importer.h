@@ -24,6 +24,13 @@ struct SurfaceKey {
     std::optional<Spectrum> colour; ///< the file's colour, linear Rec.709
 };
 
+/// A copy of a block that draws no surface, a symbol: it may stand for a luminaire.
+struct BareInsert {
+    SurfaceKey key; ///< its layer and block
+    Affine to_scene;
+    std::string name;
+};
+
 /// A file read into surfaces, before materials are chosen.
 struct Imported {
     Scene scene;                  ///< metres, z up
@@ -37,6 +44,8 @@ struct Imported {
     /// Entities made into surfaces of keys[i]; for keys beyond its end there is one entity for each surface name. Only
     /// formats that gather many entities in one mesh need it, so that the ledger stays right when a layer is dropped.
     std::vector<std::size_t> made_with_key;
+    std::vector<BareInsert> bare_inserts;
+    Direction up_in_parts{0, 0, 1}; ///< as parts draw what stands upright, before instances place them
     Report report;
 };
 

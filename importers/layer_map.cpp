@@ -41,9 +41,41 @@ NumberRange range_of(const TomlTable& table, const char* word)
                      "for example \"0.5..2\", \"..0.1\" or \"10..\""};
 }
 
-LayerRule rule_of(const TomlTable& table)
+/// `luminaire`, `aim` and `turn`.
+void take_luminaire(const TomlTable& table, const std::filesystem::path& map, LayerRule& rule, Report& report)
 {
-    table.expect_words({"layer", "group", "block", "material", "entity", "colour", "area_m2", "size_m", "use", "side"});
+    const auto file = table.text("luminaire");
+    for (const char* word : {"aim", "turn"})
+        if (!file && table.has(word))
+            throw InputError{table.place_of(word), std::string(word) + " without luminaire",
+                             "it says where a measured luminaire sends its light: add luminaire = \"file.ies\""};
+    if (!file)
+        return;
+    rule.luminaire = map.parent_path() / *file;
+    try {
+        rule.photometry = std::make_shared<const Photometry>(read_photometry(rule.luminaire, report));
+    } catch (const InputError& error) {
+        throw InputError{table.place_of("luminaire"), error.what(),
+                         "name an IES or EULUMDAT file, from the map's folder"};
+    }
+    if (table.has("aim")) {
+        const std::vector<double> aim = table.numbers("aim");
+        if (aim.size() == 3)
+            rule.aim = {aim[0], aim[1], aim[2]};
+        if (!(length(rule.aim) > 0) || !is_finite(rule.aim))
+            throw InputError{table.place_of("aim"), "aim is no direction",
+                             "three numbers, for example aim = [0, 0.3, -1]"};
+    }
+    rule.turn_deg = table.number("turn").value_or(0);
+    if (!(std::fabs(rule.turn_deg) <= 360))
+        throw InputError{table.place_of("turn"),
+                         "turn is " + shortest(rule.turn_deg) + ", expected -360 to 360 degrees"};
+}
+
+LayerRule rule_of(const TomlTable& table, const std::filesystem::path& file, Report& report)
+{
+    table.expect_words({"layer", "group", "block", "material", "entity", "colour", "area_m2", "size_m", "use", "side",
+                        "luminaire", "aim", "turn"});
     LayerRule rule;
     rule.line = table.line();
     bool any = false;
@@ -66,7 +98,8 @@ LayerRule rule_of(const TomlTable& table)
         throw InputError{table.place_of("colour"), "colour is \"" + rule.colour + "\", expected #rrggbb",
                          "for example colour = \"#ff0000\""};
     rule.use = table.text("use").value_or("");
-    if (rule.use.empty())
+    take_luminaire(table, file, rule, report);
+    if (rule.use.empty() && !rule.photometry)
         throw InputError{table.place(), "the rule does not say which material to use",
                          "add use = \"...\" with a name of the library, or use = \"void\" to leave the surfaces out"};
     rule.side = side_of(table);
@@ -99,6 +132,12 @@ bool rule_matches(const LayerRule& rule, const SurfaceKey& key)
            (rule.colour.empty() || (key.colour && matches(rule.colour, colour_text(key))));
 }
 
+bool places_luminaire(const LayerRule& rule, const SurfaceKey& bare_insert)
+{
+    return rule.photometry && rule.area_m2 == NumberRange{} && rule.size_m == NumberRange{} &&
+           rule_matches(rule, bare_insert);
+}
+
 LayerMap read_layer_map(const std::filesystem::path& file)
 {
     const TomlTable table = read_toml(file);
@@ -107,7 +146,7 @@ LayerMap read_layer_map(const std::filesystem::path& file)
     map.file = file;
     map.default_material = table.text("default").value_or("");
     for (const TomlTable* rule : table.tables("rule"))
-        map.rules.push_back(rule_of(*rule));
+        map.rules.push_back(rule_of(*rule, file, map.report));
     return map;
 }
 

@@ -19,5 +19,7 @@ inline constexpr RuleWord rule_words[] = {{"layer", &LayerRule::layer},   {"grou
 std::string colour_text(const SurfaceKey& key);
 /// True when every word that the rule gives fits the key.
 bool rule_matches(const LayerRule& rule, const SurfaceKey& key);
+/// True when the rule makes luminaires of copies of blocks that draw nothing.
+bool places_luminaire(const LayerRule& rule, const SurfaceKey& bare_insert);
 
 } // namespace lightwell

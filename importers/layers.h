@@ -2,8 +2,10 @@
 
 #include "engine/base/vector.h"
 #include "importers/importer.h"
+#include "materials/photometry.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,8 +24,12 @@ struct NumberRange {
 struct LayerRule {
     std::string layer, group, block, material, entity, colour;
     NumberRange area_m2, size_m; ///< of one surface as its block draws it; size: the longest side of its box
-    std::string use;             ///< material name of the library or the file, or "void"
+    std::string use;             ///< material name of the library or the file, or "void"; empty: a luminaire alone
     EmissionSide side = EmissionSide::both;
+    std::filesystem::path luminaire;              ///< IES or EULUMDAT file; empty: none
+    std::shared_ptr<const Photometry> photometry; ///< what it holds
+    Vec3 aim{};                                   ///< of the light, in the frame of the insert; 0: as the insert has it
+    double turn_deg = 0;                          ///< about the upward axis of the luminaire, from plane 0 to plane 90
     int line = 0;
 };
 
@@ -32,13 +38,15 @@ struct LayerMap {
     std::filesystem::path file;
     std::string default_material; ///< empty: the file's own material when it has one, else grey_50 with a note
     std::vector<LayerRule> rules;
+    Report report; ///< of the luminaires' files
 };
 
 /// What a rule decided.
 struct RuleHits {
     int line = 0;
     std::string text;         ///< the rule in short: `layer = "A-WALL*" -> white_paint`
-    std::size_t surfaces = 0; ///< instances expanded; those that a later rule took over do not count
+    std::size_t surfaces = 0; ///< instances expanded; those that a later rule took over do not count. Without
+                              ///< a material: luminaires
     double area_m2 = 0;
 };
 

@@ -44,7 +44,11 @@ public:
 private:
     std::size_t base(ModifierId id) const { return static_cast<std::size_t>(id) % choices_.size(); }
     bool is_half(ModifierId id) const { return static_cast<std::size_t>(id) >= choices_.size(); }
-    std::string material_name(ModifierId id) const { return choices_[base(id)].name + (is_half(id) ? ".half" : ""); }
+    std::string material_name(ModifierId id) const
+    {
+        const Choice& choice = choices_[base(id)];
+        return choice.name + (is_half(id) ? ".half" : "") + (choice.seen_only() ? ".seen" : "");
+    }
     const std::string& layer(ModifierId id) const
     {
         return base(id) < imported_.keys.size() ? imported_.keys[base(id)].layer
@@ -127,7 +131,12 @@ void Namer::add_materials()
         std::string name = material_name(id);
         if (materials_of_layer_.contains(name))
             name = unused_name(name + ".material", ".");
-        const Material material = is_half(id) ? with_half_radiance(*choice.definition) : *choice.definition;
+        Material material = is_half(id) ? with_half_radiance(*choice.definition) : *choice.definition;
+        if (choice.seen_only()) {
+            const std::string look = unused_name(name + ".look", ".");
+            add({look, material, void_modifier}, {look, {}, {}, choice.name, {}, {}});
+            material = Illum{{}, look};
+        }
         material_ids_[material_name(id)] = add({name, material, void_modifier}, {name, {}, {}, choice.name, {}, {}});
     }
 }

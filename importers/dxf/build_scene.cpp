@@ -24,12 +24,23 @@ namespace {
 constexpr std::size_t most_lights = 100'000;
 constexpr SkipReason empty_block{"its block has no surfaces"};
 
+/// An insert of a block that draws no surface.
+struct DrawnSymbol {
+    Affine to_frame; ///< from the coordinates of its block
+    SurfaceClass what;
+    std::string name;
+};
+/// More than this are hatching, not luminaires.
+constexpr std::size_t most_symbols = 200'000;
+
 /// A block that has become a prototype, and the classes of its surfaces that wait for an insert.
 struct Prototype {
     bool has_surfaces = false;
     std::uint32_t index = 0;
     std::vector<SurfaceClass> waiting;
     std::vector<DrawnLight> lights; ///< in the coordinates of the block
+    std::vector<DrawnSymbol> symbols;
+    std::uint32_t block_name = no_index;
 };
 
 /// What is being filled: the model or a prototype.
@@ -42,6 +53,7 @@ struct Target {
     double metres_per_unit = 1; ///< of the largest copy in the model
     std::vector<SurfaceClass> waiting;
     std::vector<DrawnLight> lights;
+    std::vector<DrawnSymbol> symbols;
 };
 
 class SceneBuilder {
@@ -56,6 +68,8 @@ private:
     Reason add_insert(Target& target, const Entity& insert, std::size_t index);
     Reason add_light_to(Target& target, const Entity& light);
     void add_lights_of(Target& target, const Entity& insert, const Prototype& prototype, const Affine& to_frame);
+    void add_symbols_of(Target& target, const Entity& insert, const Prototype& prototype, const InsertFrame& frame,
+                        const std::string& name);
     void add_shapes_to(Target& target, const Entity& entity);
     std::vector<Binding> bindings(Target& target, const Entity& insert, const Prototype& prototype);
     ModifierId modifier_in(Target& target, const SurfaceClass& what);
@@ -129,6 +143,9 @@ void SceneBuilder::build(bool y_up)
     imported_.scene.root = std::move(model.part);
     for (const DrawnLight& light : model.lights)
         add_light(drawing_, light, model.to_metres, modifiers_, imported_);
+    for (const DrawnSymbol& symbol : model.symbols)
+        imported_.bare_inserts.push_back(
+            {modifiers_.key_of(symbol.what), compose(model.to_metres, symbol.to_frame), symbol.name});
     for (const EntityRange& range : drawing_.paper)
         std::fill_n(outcomes_.begin() + static_cast<std::ptrdiff_t>(range.first), range.count, &paper);
     settle_common_styles(imported_.scene);
@@ -154,10 +171,14 @@ Prototype SceneBuilder::build_prototype(const BlockUse& use)
     target.metres_per_unit = unit_.value * use.largest_scale;
     fill(target, drawing_.blocks[use.block].entities);
     if (target.part.surfaces.empty())
-        return {false, 0, {}, std::move(target.lights)};
+        return {false, 0, {}, std::move(target.lights), std::move(target.symbols), target.block_name};
     imported_.scene.prototypes.push_back(std::move(target.part));
-    return {true, static_cast<std::uint32_t>(imported_.scene.prototypes.size() - 1), std::move(target.waiting),
-            std::move(target.lights)};
+    return {true,
+            static_cast<std::uint32_t>(imported_.scene.prototypes.size() - 1),
+            std::move(target.waiting),
+            std::move(target.lights),
+            std::move(target.symbols),
+            target.block_name};
 }
 
 /// Room for what a range of entities is likely to become, so that large parts are not copied while they grow.
@@ -258,9 +279,10 @@ Reason SceneBuilder::add_insert(Target& target, const Entity& insert, std::size_
     if (const Reason reason = find_inserted(drawing_, insert, target.use, use))
         return reason;
     const Prototype& prototype = prototypes_.at({use.block, use.hides_layer_zero});
+    const InsertFrame frame = insert_frame(drawing_, insert);
+    add_symbols_of(target, insert, prototype, frame, name_of_insert(insert, index));
     if (!prototype.has_surfaces && prototype.lights.empty())
         return &empty_block;
-    const InsertFrame frame = insert_frame(drawing_, insert);
     if (frame.has_zero_scale)
         imported_.report.add(Finding::repaired, drawing_.place(insert), "scale of an insert is 0; 1 is used");
     Instance instance{prototype.index, {}, bindings(target, insert, prototype)};
@@ -297,6 +319,29 @@ void SceneBuilder::add_lights_of(Target& target, const Entity& insert, const Pro
         light.what.style = inserted_style(drawing_, light.what.style, style);
         target.lights.push_back(light);
     }
+}
+
+void SceneBuilder::add_symbols_of(Target& target, const Entity& insert, const Prototype& prototype,
+                                  const InsertFrame& frame, const std::string& name)
+{
+    const std::size_t copies = std::size_t{frame.rows} * frame.columns;
+    const std::size_t each = prototype.symbols.size() + (prototype.has_surfaces ? 0 : 1);
+    if (each == 0 || copies > most_symbols || target.symbols.size() + copies * each > most_symbols)
+        return;
+    const Style style = style_of(drawing_, insert, target.use != nullptr);
+    for (std::uint32_t row = 0; row < frame.rows; ++row)
+        for (std::uint32_t column = 0; column < frame.columns; ++column) {
+            Affine to_frame = frame.first;
+            to_frame.translation += frame.column_step * column + frame.row_step * row;
+            if (!prototype.has_surfaces)
+                target.symbols.push_back({to_frame, {style, insert.type, prototype.block_name}, name});
+            for (DrawnSymbol symbol : prototype.symbols) {
+                symbol.to_frame = compose(to_frame, symbol.to_frame);
+                symbol.what.style = inserted_style(drawing_, symbol.what.style, style);
+                symbol.name = name + '/' + symbol.name;
+                target.symbols.push_back(std::move(symbol));
+            }
+        }
 }
 
 std::vector<Binding> SceneBuilder::bindings(Target& target, const Entity& insert, const Prototype& prototype)

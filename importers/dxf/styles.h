@@ -41,10 +41,9 @@ public:
     ModifierId modifier_for(const SurfaceClass& what);
     /// @param material  of Imported::file_materials
     ModifierId modifier_for(const SurfaceClass& what, const std::string& material);
-
-private:
     SurfaceKey key_of(const SurfaceClass& what) const;
 
+private:
     const Drawing& drawing_;
     KeyTable keys_;
     std::map<SurfaceClass, ModifierId> known_;

@@ -105,6 +105,8 @@ Imported import_gltf(const std::filesystem::path& file, const ImportOptions& opt
     note_required_extensions(document, imported.report);
     note_variants(document, imported.report);
     const MetresPerUnit unit = unit_of(document, options, imported);
+    if (y_is_up(document, options))
+        imported.up_in_parts = {0, 1, 0};
     const std::set<int> open_shells = build_gltf(document, to_metres_z_up(unit, y_is_up(document, options)), imported);
     take_materials(document, open_shells, unit.value, imported);
     return imported;

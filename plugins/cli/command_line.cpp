@@ -52,6 +52,7 @@ Status parse_and_run(const std::vector<std::string>& arguments, const std::vecto
     add_import(app, status);
     add_export(app, status);
     add_materials(app, status);
+    add_luminaire(app, status);
     add_render(app, status);
     add_illuminance(app, status);
     add_bake(app, status);

@@ -13,6 +13,7 @@ void add_layers(CLI::App& app, Status& status);
 void add_import(CLI::App& app, Status& status);
 void add_export(CLI::App& app, Status& status);
 void add_materials(CLI::App& app, Status& status);
+void add_luminaire(CLI::App& app, Status& status);
 void add_render(CLI::App& app, Status& status);
 void add_illuminance(CLI::App& app, Status& status);
 void add_bake(CLI::App& app, Status& status);
