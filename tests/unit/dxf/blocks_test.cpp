@@ -128,7 +128,10 @@ TEST(DxfBlocks, KeepTheirLayersThroughTheLayerMap)
     EXPECT_EQ(surfaces, (std::map<std::string, std::size_t>{{"RED", 1}, {"BLUE", 2}, {"GREEN", 5}}));
     LayerMap map;
     map.default_material = "grey_50";
-    map.rules.push_back({.layer = "BLUE", .use = "void", .line = 1});
+    LayerRule rule;
+    rule.layer = "BLUE";
+    rule.use = "void";
+    map.rules.push_back(rule);
     apply_layer_map(imported, map);
     EXPECT_NO_THROW(validate(imported.scene));
     std::size_t left = 0;
