@@ -63,7 +63,7 @@ void write_page(const std::filesystem::path& folder, const std::vector<Validatio
         std::string(options.validation.full ? "Full run" : "Quick look")
             .append(", seed ")
             .append(std::to_string(options.validation.seed))
-            .append(", lightwell ")
+            .append(", ")
             .append(program_version())
             .append(options.perturb.empty() ? "" : ", with a deliberate error in " + options.perturb);
     std::ofstream page(folder / "index.html", std::ios::binary);

@@ -46,6 +46,10 @@ std::string ending(const ChildResult& result)
 
 RadiancePeers::RadiancePeers(const Scene& scene)
 {
+    if (std::getenv("RAYPATH") == nullptr) { // its library stands beside its programs
+        const std::filesystem::path library = program_on_path("rtrace").parent_path().parent_path() / "lib";
+        setenv("RAYPATH", (".:" + library.string()).c_str(), 0);
+    }
     for (const char* program : {"oconv", "rtrace", "rpict"})
         if (program_on_path(program).empty()) {
             absent_ = std::string(program).append(" is not on the PATH");
