@@ -78,9 +78,9 @@ class Cancelling(WithEngine):
     def test_grids_and_surfaces_stop(self):
         self.load(room(self.path))
         for do, fields in (("illuminance", {"grid": "plane:0.85,0.1,0.1,3.9,2.9/0.02", "file": str(self.path / "a.csv")}),
-                           ("surfaces", {"spacing": 0.05, "file": str(self.path / "a.json")}),
+                           ("surfaces", {"spacing": 0.02, "file": str(self.path / "a.json")}),
                            ("plan", {"view": "desk", "size": [1920, 1080]})):
-            self.measure(lambda: self.engine.send(do, accuracy=0.02, **fields), [0.1, 0.5, 1, 1.7])
+            self.measure(lambda: self.engine.send(do, accuracy=0.005, **fields), [0.05, 0.2, 0.4, 0.7])
 
     def test_loading_a_large_scene_stops(self):
         folder = SceneFolder(self.path)
