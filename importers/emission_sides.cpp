@@ -1,5 +1,7 @@
 #include "importers/emission_sides.h"
 
+#include "importers/round_outlines.h"
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -10,7 +12,12 @@ namespace {
 
 bool less(const Point& a, const Point& b)
 {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+    return PointOrder{}(a, b);
+}
+
+bool is_part_of_round(const Part& part, const Surface& surface)
+{
+    return !sector_of(part, surface).is_whole();
 }
 
 /// An edge without direction; corners are equal when their coordinates are.
@@ -25,10 +32,15 @@ struct EdgeUse {
     long balance = 0;
 };
 
-/// The outlines of a polygon, or of each triangle of a mesh.
+/// The outlines of a polygon, of each triangle of a mesh, of each of so many pieces of part of a round shape.
 template <class Visit>
-void visit_outlines(const Part& part, const Surface& surface, const Visit& visit)
+void visit_outlines(const Part& part, const Surface& surface, int pieces, const Visit& visit)
 {
+    for (int i = 0; is_part_of_round(part, surface) && i < pieces; ++i) {
+        const std::vector<Point> corners =
+            outline_of_round(part, surface, static_cast<double>(i) / pieces, (i + 1.0) / pieces);
+        visit(corners.data(), corners.size());
+    }
     if (surface.shape == Shape::polygon) {
         const Polygon& polygon = part.polygons[surface.index];
         visit(&part.points[polygon.first], polygon.count);
@@ -77,27 +89,52 @@ void add_volume(Body& body, const Point* corners, std::size_t count)
     body.volume_m3 += dot(corners[0] - body.reference, polygon_area_vector(corners, count)) / 3;
 }
 
-/// Bodies of the emitters' polygons and meshes; body_of[i] belongs to emitters[i].
+/// The edges of the emitters and how they hang together. Arcs count as the chord between their ends.
+std::map<Edge, EdgeUse> find_edges(const Part& part, const std::vector<std::size_t>& emitters, Components& components)
+{
+    // Straight outlines first: the corners of round parts then find theirs.
+    const bool any_round = std::any_of(emitters.begin(), emitters.end(),
+                                       [&](std::size_t e) { return is_part_of_round(part, part.surfaces[e]); });
+    SharedCorners corners_of_all;
+    std::map<Edge, EdgeUse> edges;
+    for (const bool round : {false, true})
+        for (std::size_t e = 0; e < emitters.size(); ++e) {
+            const Surface& surface = part.surfaces[emitters[e]];
+            if (is_part_of_round(part, surface) != round)
+                continue;
+            visit_outlines(part, surface, 1, [&](const Point* corners, std::size_t count) {
+                for (std::size_t i = 0; i < count; ++i) {
+                    Point a = corners[i], b = corners[(i + 1) % count];
+                    if (round) {
+                        a = corners_of_all.shared(a);
+                        b = corners_of_all.shared(b);
+                    } else if (any_round) {
+                        corners_of_all.add(a);
+                    }
+                    if (round && a == b)
+                        continue; // the tip of a cone
+                    const bool forward = less(a, b);
+                    const auto [use, fresh] = edges.try_emplace(forward ? Edge{a, b} : Edge{b, a}, EdgeUse{e, 0});
+                    use->second.balance += forward ? 1 : -1;
+                    components.join(e, use->second.first_user);
+                }
+            });
+        }
+    return edges;
+}
+
+/// Bodies of the emitters' polygons, meshes and parts of round shapes; body_of[i] belongs to emitters[i].
 std::vector<Body> find_bodies(const Part& part, const std::vector<std::size_t>& emitters,
                               std::vector<std::size_t>& body_of)
 {
+    constexpr int pieces = 16; // of a turn at most: enough to tell inside from outside
     Components components{emitters.size()};
-    std::map<Edge, EdgeUse> edges;
-    for (std::size_t e = 0; e < emitters.size(); ++e)
-        visit_outlines(part, part.surfaces[emitters[e]], [&](const Point* corners, std::size_t count) {
-            for (std::size_t i = 0; i < count; ++i) {
-                const Point &a = corners[i], &b = corners[(i + 1) % count];
-                const bool forward = less(a, b);
-                const auto [use, fresh] = edges.try_emplace(forward ? Edge{a, b} : Edge{b, a}, EdgeUse{e, 0});
-                use->second.balance += forward ? 1 : -1;
-                components.join(e, use->second.first_user);
-            }
-        });
+    const std::map<Edge, EdgeUse> edges = find_edges(part, emitters, components);
     std::vector<Body> bodies(emitters.size());
     body_of.resize(emitters.size());
     for (std::size_t e = 0; e < emitters.size(); ++e) {
         body_of[e] = components.root(e);
-        visit_outlines(part, part.surfaces[emitters[e]], [&](const Point* corners, std::size_t count) {
+        visit_outlines(part, part.surfaces[emitters[e]], pieces, [&](const Point* corners, std::size_t count) {
             add_volume(bodies[body_of[e]], corners, count);
         });
     }
@@ -171,11 +208,11 @@ std::vector<Turn> emission_turns(const Part& part, const std::vector<std::size_t
     for (std::size_t e = 0; e < emitters.size(); ++e) {
         const Surface& surface = part.surfaces[emitters[e]];
         const Body& body = bodies[body_of[e]];
-        switch (surface.shape) {
-        case Shape::polygon:
-        case Shape::mesh:
+        if (surface.shape == Shape::polygon || surface.shape == Shape::mesh || is_part_of_round(part, surface)) {
             turns[e] = !body.closed ? open : body.volume_m3 < 0 ? Turn::reversed : Turn::as_is;
-            break;
+            continue;
+        }
+        switch (surface.shape) {
         case Shape::ring:
             if (!closes_a_cone(part, emitters, part.rings[surface.index], turns[e]))
                 turns[e] = open;
@@ -185,6 +222,8 @@ std::vector<Turn> emission_turns(const Part& part, const std::vector<std::size_t
         case Shape::tube:
             turns[e] = Turn::reversed;
             break;
+        case Shape::polygon:
+        case Shape::mesh:
         case Shape::sphere:
         case Shape::cone:
         case Shape::cylinder:
@@ -222,7 +261,10 @@ void append_copy(Part& to, const Part& from, const Surface& surface, bool revers
         break;
     case Shape::ring: {
         Ring ring = from.rings[surface.index];
-        ring.normal = reversed ? -ring.normal : ring.normal;
+        if (reversed) {
+            ring.sector = turned_over(ring.sector, ring.normal);
+            ring.normal = -ring.normal;
+        }
         to.add_ring(ring, modifier, std::move(name));
         break;
     }

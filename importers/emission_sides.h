@@ -15,7 +15,8 @@ enum class Turn : std::uint8_t { as_is, reversed, both };
 inline constexpr const char* back_suffix = "~back";
 
 /// Turns for the surfaces of one part that share an emitter. Closed bodies emit outwards whatever `side` says: spheres,
-/// cones and cylinders, rings that close one of those, and polygons and meshes that together leave no open edge.
+/// cones and cylinders, rings that close one of those, and polygons, meshes and parts of round shapes that together
+/// leave no open edge.
 /// @param emitters  indices into part.surfaces
 /// @param side      for what is not closed
 std::vector<Turn> emission_turns(const Part& part, const std::vector<std::size_t>& emitters, EmissionSide side);

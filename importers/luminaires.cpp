@@ -159,7 +159,7 @@ void Finder::keep(int index, const Aimed& aimed, const Part& part, const Body& b
     Box box;
     for (const std::size_t i : group)
         if (!placed.shining || body.shining[i])
-            box.extend(mapped_bounds(part, *body.surfaces[i], to_frame));
+            box.extend(surface_bounds(part, *body.surfaces[i], to_frame));
     placed.frame.translation = placed.frame.vector(box.centre());
     if (rule(index).use != "void")
         placed.body = (box.high - box.low) * 0.5;
@@ -180,7 +180,7 @@ void Finder::add_groups(int index, const Part& part, const Body& body, const Aff
 {
     std::vector<Box> boxes;
     for (const Surface* surface : body.surfaces)
-        boxes.push_back(mapped_bounds(part, *surface, to_world));
+        boxes.push_back(surface_bounds(part, *surface, to_world));
     for (const std::vector<std::size_t>& group : touching_groups(boxes))
         add_group(index, part, body, group, to_world);
 }
@@ -200,7 +200,7 @@ void Finder::add_group(int index, const Part& part, const Body& body, const std:
     } else {
         Box box;
         for (const std::size_t i : group)
-            box.extend(mapped_bounds(part, *body.surfaces[i], to_world));
+            box.extend(surface_bounds(part, *body.surfaces[i], to_world));
         const Vec3 size = box.high - box.low;
         along = size.x >= size.y ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     }

@@ -1,5 +1,7 @@
 #include "importers/mapped_area.h"
 
+#include "engine/base/frame.h"
+
 #include <algorithm>
 #include <array>
 
@@ -80,17 +82,20 @@ double cone_area_m2(const Cone& cone, const AreaMap& areas)
 {
     const Vec3 axis = cone.ends[1] - cone.ends[0];
     const double height = length(axis), widening = cone.radii[1] - cone.radii[0];
-    const Direction w = axis / height;
-    const Direction u = normalized(cross(w, std::fabs(w.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), v = cross(w, u);
+    const Frame frame = sector_frame(cone.sector, axis / height);
     // The area vector of a strip between two generators is (mean radius) (height e - widening w) d(angle), with e the
     // outward direction: its image has the same length for all strips of one angle, so one integral over it suffices.
+    // Simpson's weights: over a whole turn they converge as fast as equal ones do.
     constexpr int strips = 2048;
+    const double sweep = cone.sector.is_whole() ? 2 * pi : cone.sector.sweep_rad;
+    const auto weight = [&](int i) { return i == 0 || i == strips ? 1.0 / 3 : i % 2 == 1 ? 4.0 / 3 : 2.0 / 3; };
     double sum = 0;
-    for (int i = 0; i < strips; ++i) {
-        const double angle = 2 * pi * i / strips;
-        sum += areas.image_size((u * std::cos(angle) + v * std::sin(angle)) * height - w * widening);
+    for (int i = 0; i <= strips; ++i) {
+        const double angle = sweep * i / strips;
+        sum += weight(i) *
+               areas.image_size((frame.x * std::cos(angle) + frame.y * std::sin(angle)) * height - frame.z * widening);
     }
-    return (cone.radii[0] + cone.radii[1]) / 2 * sum * 2 * pi / strips;
+    return (cone.radii[0] + cone.radii[1]) / 2 * sum * sweep / strips;
 }
 
 } // namespace

@@ -99,7 +99,7 @@ void add_surface(Facets& facets, const Part& part, const Surface& surface, const
             add_facet(facets, triangle, 3);
         }
     } else {
-        const Box box = mapped_bounds(part, surface, to_world);
+        const Box box = surface_bounds(part, surface, to_world);
         const Point diagonal[] = {box.low, box.high, box.low};
         add_facet(facets, diagonal, 3);
     }

@@ -54,26 +54,12 @@ private:
     std::vector<Amounts> of_prototype_;
 };
 
-/// Half the extent of the image of a disc: the image is an ellipse about two half axes.
-Vec3 disc_reach(const Direction& normal, double radius, const Affine& map)
-{
-    const Direction across = normalized(cross(normal, std::fabs(normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
-    const Vec3 a = map.vector(across * radius), b = map.vector(cross(normal, across) * radius);
-    return {std::hypot(a.x, b.x), std::hypot(a.y, b.y), std::hypot(a.z, b.z)};
-}
-
-void extend(Box& box, const Point& centre, const Vec3& reach)
-{
-    box.extend(centre - reach);
-    box.extend(centre + reach);
-}
-
 Boxes boxes_of(const Scene& scene, const Part& part, const std::vector<Boxes>& prototypes)
 {
     Boxes boxes;
     for (const Surface& surface : part.surfaces) {
         if (surface.shape != Shape::instance) {
-            boxes[surface.modifier].extend(mapped_bounds(part, surface, {}));
+            boxes[surface.modifier].extend(surface_bounds(part, surface));
             continue;
         }
         const Instance& instance = part.instances[surface.index];
@@ -103,53 +89,9 @@ std::unordered_map<ModifierId, Box> surface_boxes(const Scene& scene)
     }
     Boxes boxes;
     visit_expanded(scene, [&](const Part& part, const Surface& surface, const Affine& map, ModifierId modifier) {
-        boxes[modifier].extend(mapped_bounds(part, surface, map));
+        boxes[modifier].extend(surface_bounds(part, surface, map));
     });
     return boxes;
-}
-
-Box mapped_bounds(const Part& part, const Surface& surface, const Affine& map)
-{
-    Box box;
-    switch (surface.shape) {
-    case Shape::polygon: {
-        const Polygon& polygon = part.polygons[surface.index];
-        for (std::uint32_t i = 0; i < polygon.count; ++i)
-            box.extend(map.point(part.points[polygon.first + i]));
-        break;
-    }
-    case Shape::mesh:
-        for (const Point& point : part.meshes[surface.index]->points)
-            box.extend(map.point(point));
-        break;
-    case Shape::sphere:
-    case Shape::bubble: {
-        const Sphere& sphere = part.spheres[surface.index];
-        const Vec3 reach{length(Vec3{map.x.x, map.y.x, map.z.x}), length(Vec3{map.x.y, map.y.y, map.z.y}),
-                         length(Vec3{map.x.z, map.y.z, map.z.z})};
-        extend(box, map.point(sphere.centre), reach * sphere.radius);
-        break;
-    }
-    case Shape::cone:
-    case Shape::cup:
-    case Shape::cylinder:
-    case Shape::tube: {
-        const Cone& cone = part.cones[surface.index];
-        const Direction axis = normalized(cone.ends[1] - cone.ends[0]);
-        for (int end = 0; end < 2; ++end)
-            extend(box, map.point(cone.ends[end]), disc_reach(axis, cone.radii[end], map));
-        break;
-    }
-    case Shape::ring: {
-        const Ring& ring = part.rings[surface.index];
-        extend(box, map.point(ring.centre), disc_reach(ring.normal, ring.outer_radius, map));
-        break;
-    }
-    case Shape::source:
-    case Shape::instance:
-        break;
-    }
-    return box;
 }
 
 } // namespace lightwell

@@ -21,7 +21,4 @@ std::unordered_map<ModifierId, Amount> surface_amounts(const Scene& scene);
 ///        around the corners of their prototypes' boxes
 std::unordered_map<ModifierId, Box> surface_boxes(const Scene& scene);
 
-/// The smallest box around the image of a surface (no instance) under any affine map.
-Box mapped_bounds(const Part& part, const Surface& surface, const Affine& map);
-
 } // namespace lightwell

@@ -61,7 +61,7 @@ Crossings cone_hit(const Cone& cone, const Point& origin, const Vec3& direction)
     int count = 0;
     for (const double t : all.t) {
         const double at = z + t * dz;
-        if (at >= 0 && at <= height && cone.radii[0] + slope * at >= 0)
+        if (at >= 0 && at <= height && cone.radii[0] + slope * at >= 0 && cone.sector.holds(unit, across + dacross * t))
             found.t[count++] = t + shift;
     }
     return found;
@@ -72,8 +72,8 @@ double ring_hit(const Ring& ring, const Point& origin, const Vec3& direction) no
     const double t = dot(ring.normal, ring.centre - origin) / dot(ring.normal, direction);
     const Vec3 across = origin + direction * t - ring.centre;
     const double squared = dot(across, across);
-    const bool inside =
-        squared <= ring.outer_radius * ring.outer_radius && squared >= ring.inner_radius * ring.inner_radius;
+    const bool inside = squared <= ring.outer_radius * ring.outer_radius &&
+                        squared >= ring.inner_radius * ring.inner_radius && ring.sector.holds(ring.normal, across);
     return inside ? t : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -27,18 +27,22 @@ void scale_areas(SurfaceChart& chart, double area_m2)
 
 std::vector<Point> disc_outline(const Ring& ring, const Affine& to_world)
 {
-    const Frame frame = frame_about(ring.normal);
+    const Frame frame = sector_frame(ring.sector, ring.normal);
+    const bool whole = ring.sector.is_whole();
     std::vector<Point> corners;
-    const auto add_circle = [&](double radius, int turn) {
+    const auto add_circle = [&](double radius, bool backwards) {
         for (int i = 0; i <= disc_corners; ++i) {
-            const double angle = turn * 2 * pi * (i % disc_corners) / disc_corners;
+            const int step = backwards ? disc_corners - i : i;
+            const double angle = ring.sector.sweep_rad * (whole ? step % disc_corners : step) / disc_corners;
             corners.push_back(
                 to_world.point(ring.centre + frame.to_world({radius * std::cos(angle), radius * std::sin(angle), 0})));
         }
     };
-    add_circle(ring.outer_radius, 1);
+    add_circle(ring.outer_radius, false);
     if (ring.inner_radius > 0)
-        add_circle(ring.inner_radius, -1);
+        add_circle(ring.inner_radius, true);
+    else if (!whole)
+        corners.push_back(to_world.point(ring.centre));
     return corners;
 }
 
@@ -50,21 +54,22 @@ struct Profile {
 };
 
 template <class At>
-SurfaceChart round_chart(const Point& origin, const Direction& axis, double round_m, double slant_m, double spacing_m,
-                         const Affine& to_world, const At& at)
+SurfaceChart round_chart(const Point& origin, const Direction& axis, const Sector& sector, double round_m,
+                         double slant_m, double spacing_m, const Affine& to_world, const At& at)
 {
     const double scale = std::cbrt(std::fabs(to_world.determinant()));
     SurfaceChart chart;
     chart.kind = SurfaceChart::Kind::round;
-    chart.columns = std::max(3, texels_along(round_m * scale, spacing_m));
+    chart.columns = std::max(3, texels_along(round_m * sector.share() * scale, spacing_m));
     chart.rows = texels_along(slant_m * scale, spacing_m);
     if (static_cast<double>(chart.columns) * chart.rows > most_texels)
-        texels_along(round_m * slant_m * scale * scale, spacing_m * spacing_m);
-    const Frame frame = frame_about(axis);
+        texels_along(round_m * sector.share() * slant_m * scale * scale, spacing_m * spacing_m);
+    const Frame frame = sector_frame(sector, axis);
     for (int row = 0; row < chart.rows; ++row) {
         const Profile p = at((row + 0.5) / chart.rows);
         for (int column = 0; column < chart.columns; ++column) {
-            const double angle = 2 * pi * (column + 0.5) / chart.columns, c = std::cos(angle), s = std::sin(angle);
+            const double angle = sector.sweep_rad * (column + 0.5) / chart.columns;
+            const double c = std::cos(angle), s = std::sin(angle);
             const Point place = origin + frame.to_world({p.radius * c, p.radius * s, p.along});
             const Direction normal = normalized(frame.to_world({p.normal_r * c, p.normal_r * s, p.normal_z}));
             chart.cells.push_back(static_cast<int>(chart.sensors.size()));
@@ -78,7 +83,7 @@ SurfaceChart round_chart(const Point& origin, const Direction& axis, double roun
 SurfaceChart sphere_chart(const Sphere& sphere, bool inwards, double spacing_m, const Affine& to_world)
 {
     const double side = inwards ? -1 : 1;
-    return round_chart(sphere.centre, {0, 0, 1}, 2 * pi * sphere.radius, pi * sphere.radius, spacing_m, to_world,
+    return round_chart(sphere.centre, {0, 0, 1}, {}, 2 * pi * sphere.radius, pi * sphere.radius, spacing_m, to_world,
                        [&](double h) {
                            const double z = -std::cos(pi * h), r = std::sin(pi * h);
                            return Profile{sphere.radius * r, sphere.radius * z, side * r, side * z, r};
@@ -90,8 +95,8 @@ SurfaceChart cone_chart(const Cone& cone, bool inwards, double spacing_m, const 
     const Vec3 axis = cone.ends[1] - cone.ends[0];
     const double height = length(axis), widening = cone.radii[1] - cone.radii[0];
     const double slant = std::hypot(height, widening), side = inwards ? -1 : 1;
-    return round_chart(cone.ends[0], normalized(axis), 2 * pi * std::max(cone.radii[0], cone.radii[1]), slant,
-                       spacing_m, to_world, [&](double h) {
+    return round_chart(cone.ends[0], normalized(axis), cone.sector, 2 * pi * std::max(cone.radii[0], cone.radii[1]),
+                       slant, spacing_m, to_world, [&](double h) {
                            const double r = cone.radii[0] + widening * h;
                            return Profile{r, height * h, side * height / slant, -side * widening / slant, r};
                        });

@@ -12,7 +12,7 @@ namespace lightwell {
 struct SurfaceChart {
     enum class Kind {
         plane,    ///< corner + across * u + up * v, u and v from 0 to 1
-        round,    ///< across: round the axis, counter-clockwise; up: along it (a sphere: from pole to pole by angle)
+        round,    ///< across: round the axis, counter-clockwise, as far as it goes; up: along it (a sphere: by angle)
         triangles ///< one texel for each triangle of a mesh that is not flat, in their order, row by row from below
     } kind = Kind::plane;
     std::string id;    ///< names of the instances and of the surface, with '/' between

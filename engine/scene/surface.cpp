@@ -118,11 +118,12 @@ double surface_area_m2(const Part& part, const Surface& surface)
     case Shape::tube: {
         const Cone& cone = part.cones[surface.index];
         const double slant = std::hypot(length(cone.ends[1] - cone.ends[0]), cone.radii[1] - cone.radii[0]);
-        return pi * (cone.radii[0] + cone.radii[1]) * slant;
+        return pi * (cone.radii[0] + cone.radii[1]) * slant * cone.sector.share();
     }
     case Shape::ring: {
         const Ring& ring = part.rings[surface.index];
-        return pi * (ring.outer_radius - ring.inner_radius) * (ring.outer_radius + ring.inner_radius);
+        return pi * (ring.outer_radius - ring.inner_radius) * (ring.outer_radius + ring.inner_radius) *
+               ring.sector.share();
     }
     case Shape::mesh: {
         const Mesh& mesh = *part.meshes[surface.index];
@@ -139,29 +140,39 @@ double surface_area_m2(const Part& part, const Surface& surface)
     return 0;
 }
 
-Box surface_bounds(const Part& part, const Surface& surface)
+const Sector& sector_of(const Part& part, const Surface& surface) noexcept
+{
+    static const Sector whole;
+    switch (surface.shape) {
+    case Shape::cone:
+    case Shape::cup:
+    case Shape::cylinder:
+    case Shape::tube:
+        return part.cones[surface.index].sector;
+    case Shape::ring:
+        return part.rings[surface.index].sector;
+    default:
+        return whole;
+    }
+}
+
+Box surface_bounds(const Part& part, const Surface& surface, const Affine& map)
 {
     Box box;
-    // A disc of radius r about a unit normal n reaches r sqrt(1 - n_i^2) along axis i.
-    const auto add_disc = [&](const Point& centre, const Direction& n, double r) {
-        const Vec3 reach{r * std::sqrt(std::fmax(0, 1 - n.x * n.x)), r * std::sqrt(std::fmax(0, 1 - n.y * n.y)),
-                         r * std::sqrt(std::fmax(0, 1 - n.z * n.z))};
-        box.extend(centre - reach);
-        box.extend(centre + reach);
-    };
     switch (surface.shape) {
     case Shape::polygon: {
         const Polygon& polygon = part.polygons[surface.index];
         for (std::uint32_t i = 0; i < polygon.count; ++i)
-            box.extend(part.points[polygon.first + i]);
+            box.extend(map.point(part.points[polygon.first + i]));
         break;
     }
     case Shape::sphere:
     case Shape::bubble: {
         const Sphere& sphere = part.spheres[surface.index];
-        const Vec3 reach{sphere.radius, sphere.radius, sphere.radius};
-        box.extend(sphere.centre - reach);
-        box.extend(sphere.centre + reach);
+        const Vec3 reach{length(Vec3{map.x.x, map.y.x, map.z.x}), length(Vec3{map.x.y, map.y.y, map.z.y}),
+                         length(Vec3{map.x.z, map.y.z, map.z.z})};
+        box.extend(map.point(sphere.centre) - reach * sphere.radius);
+        box.extend(map.point(sphere.centre) + reach * sphere.radius);
         break;
     }
     case Shape::cone:
@@ -170,17 +181,20 @@ Box surface_bounds(const Part& part, const Surface& surface)
     case Shape::tube: {
         const Cone& cone = part.cones[surface.index];
         const Direction axis = normalized(cone.ends[1] - cone.ends[0]);
-        add_disc(cone.ends[0], axis, cone.radii[0]);
-        add_disc(cone.ends[1], axis, cone.radii[1]);
+        for (int end = 0; end < 2; ++end)
+            extend_by_arc(box, cone.ends[end], axis, cone.radii[end], cone.sector, map);
         break;
     }
-    case Shape::ring:
-        add_disc(part.rings[surface.index].centre, part.rings[surface.index].normal,
-                 part.rings[surface.index].outer_radius);
+    case Shape::ring: {
+        const Ring& ring = part.rings[surface.index];
+        extend_by_arc(box, ring.centre, ring.normal, ring.outer_radius, ring.sector, map);
+        if (!ring.sector.is_whole())
+            extend_by_arc(box, ring.centre, ring.normal, ring.inner_radius, ring.sector, map);
         break;
+    }
     case Shape::mesh:
         for (const Point& p : part.meshes[surface.index]->points)
-            box.extend(p);
+            box.extend(map.point(p));
         break;
     case Shape::source:
     case Shape::instance:

@@ -2,6 +2,7 @@
 
 #include "engine/base/box.h"
 #include "engine/base/transform.h"
+#include "engine/scene/sector.h"
 
 #include <cstdint>
 #include <memory>
@@ -40,7 +41,8 @@ struct Sphere {
 /// Side of a truncated cone without ends: cone and cylinder with the normal outwards, cup and tube inwards.
 struct Cone {
     Point ends[2];
-    double radii[2]; ///< >= 0, not both 0; equal for cylinder and tube
+    double radii[2];    ///< >= 0, not both 0; equal for cylinder and tube
+    Sector sector = {}; ///< about the axis from the first to the second end
 };
 
 /// Flat disc with an optional concentric hole.
@@ -48,6 +50,7 @@ struct Ring {
     Point centre;
     Direction normal;
     double inner_radius, outer_radius; ///< 0 <= inner < outer
+    Sector sector = {};                ///< about the normal
 };
 
 /// Something so far away that only its direction counts: the sun, the sky.
@@ -107,7 +110,9 @@ struct Part {
 Vec3 polygon_area_vector(const Point* corners, std::size_t count) noexcept;
 /// Area in m^2 of one surface in its part's frame; 0 for source and instance.
 double surface_area_m2(const Part& part, const Surface& surface);
-/// Bounding box of one surface in its part's frame; empty for source and instance.
-Box surface_bounds(const Part& part, const Surface& surface);
+/// The part of a full turn that a ring or the side of a cone covers; of all other shapes a whole turn.
+const Sector& sector_of(const Part& part, const Surface& surface) noexcept;
+/// The smallest box around the image of one surface; empty for source and instance.
+Box surface_bounds(const Part& part, const Surface& surface, const Affine& map = {});
 
 } // namespace lightwell

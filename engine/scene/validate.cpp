@@ -111,6 +111,17 @@ void check_mesh(const Part& part, const Surface& surface, const Mesh& mesh)
             reject(at(part, surface), "a normal is not finite");
 }
 
+void check_sector(const Part& part, const Surface& surface, const Direction& axis)
+{
+    const Sector& sector = sector_of(part, surface);
+    if (!(sector.sweep_rad > 0))
+        reject(at(part, surface), fmt::format("sweep is {}, expected > 0 rad", sector.sweep_rad));
+    const double size = length(sector.start), along = dot(sector.start, axis);
+    if (!sector.is_whole() && !(std::fabs(size - 1) < 1e-6 && std::fabs(along) < 1e-6))
+        reject(at(part, surface),
+               fmt::format("start of the sector has length {} and {} along the axis, expected 1 and 0", size, along));
+}
+
 void check_surface(const Scene& scene, const Part& part, const Surface& surface, std::size_t prototypes_before)
 {
     const auto expect = [&](bool good, const std::string& what, double value, const std::string& expected) {
@@ -143,6 +154,7 @@ void check_surface(const Scene& scene, const Part& part, const Surface& surface,
             expect(radius >= 0 && std::isfinite(radius), "radius", radius, ">= 0 m");
         expect(cone.radii[0] + cone.radii[1] > 0, "sum of the radii", 0, "> 0 m");
         expect(length(cone.ends[1] - cone.ends[0]) > 0, "length", 0, "> 0 m");
+        check_sector(part, surface, normalized(cone.ends[1] - cone.ends[0]));
         break;
     }
     case Shape::ring: {
@@ -151,6 +163,7 @@ void check_surface(const Scene& scene, const Part& part, const Surface& surface,
         expect(std::fabs(length(ring.normal) - 1) < 1e-6, "length of the normal", length(ring.normal), "1");
         expect(ring.inner_radius >= 0 && ring.outer_radius > ring.inner_radius && std::isfinite(ring.outer_radius),
                "outer radius", ring.outer_radius, fmt::format("> inner radius {} >= 0", ring.inner_radius));
+        check_sector(part, surface, ring.normal);
         break;
     }
     case Shape::source: {

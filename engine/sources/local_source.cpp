@@ -81,12 +81,13 @@ PointOnSource point_by_area(const FlatEmitter& e, UnitSquare u)
 PointOnSource point_by_area(const RingEmitter& e, const Frame& frame, UnitSquare u)
 {
     const Ring& ring = e.ring;
-    if (ring.inner_radius == 0) { // keeps neighbours together, which a straight edge of a shadow rewards
+    // Keeps neighbours together, which a straight edge of a shadow rewards.
+    if (ring.inner_radius == 0 && ring.sector.is_whole()) {
         const DiscPoint p = uniform_disc(u);
         return {ring.centre + (frame.x * p.x + frame.y * p.y) * ring.outer_radius, ring.normal};
     }
     const double inner = ring.inner_radius * ring.inner_radius, outer = ring.outer_radius * ring.outer_radius;
-    const double r = std::sqrt(inner + u.u * (outer - inner)), angle = 2 * pi * u.v;
+    const double r = std::sqrt(inner + u.u * (outer - inner)), angle = ring.sector.sweep_rad * u.v;
     return {ring.centre + frame.x * (r * std::cos(angle)) + frame.y * (r * std::sin(angle)), ring.normal};
 }
 
@@ -100,8 +101,8 @@ PointOnSource point_by_area(const ConeEmitter& e, UnitSquare u)
     const double s = std::fabs(dr) < 1e-9 * whole
                          ? u.u
                          : 2 * u.u * whole / (r0 + std::sqrt(std::fmax(0, r0 * r0 + 2 * dr * u.u * whole)));
-    const Frame frame = frame_about(axis / height);
-    const double angle = 2 * pi * u.v;
+    const Frame frame = sector_frame(cone.sector, axis / height);
+    const double angle = cone.sector.sweep_rad * u.v;
     const Vec3 across = frame.x * std::cos(angle) + frame.y * std::sin(angle);
     const Direction normal = normalized(across * height - frame.z * dr);
     return {cone.ends[0] + axis * s + across * (r0 + dr * s), e.inwards ? -normal : normal};
@@ -155,25 +156,36 @@ LocalSource::LocalSource(Shape shape, const Material& material, VariedLight vari
         area_m2_ = 4 * pi * ball->sphere.radius * ball->sphere.radius;
     } else if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
         const Ring& r = ring->ring;
-        const Vec3 reach = Vec3{1, 1, 1} * (r.outer_radius / std::sqrt(3.0));
-        box.extend(r.centre - reach);
-        box.extend(r.centre + reach);
-        area_m2_ = pi * (r.outer_radius - r.inner_radius) * (r.outer_radius + r.inner_radius);
+        if (r.sector.is_whole()) {
+            const Vec3 reach = Vec3{1, 1, 1} * (r.outer_radius / std::sqrt(3.0));
+            box.extend(r.centre - reach);
+            box.extend(r.centre + reach);
+        } else {
+            extend_by_arc(box, r.centre, r.normal, r.outer_radius, r.sector);
+            extend_by_arc(box, r.centre, r.normal, r.inner_radius, r.sector);
+        }
+        area_m2_ = pi * (r.outer_radius - r.inner_radius) * (r.outer_radius + r.inner_radius) * r.sector.share();
         facing_ = r.normal;
         flat_ = true;
     } else if (const auto* cone = std::get_if<ConeEmitter>(&shape_)) {
         const Cone& c = cone->cone;
         const double r = std::fmax(c.radii[0], c.radii[1]);
-        for (const Point& end : c.ends) {
-            box.extend(end - Vec3{r, r, r});
-            box.extend(end + Vec3{r, r, r});
+        const Vec3 axis = c.ends[1] - c.ends[0];
+        for (int end = 0; end < 2; ++end) {
+            if (!c.sector.is_whole()) {
+                extend_by_arc(box, c.ends[end], normalized(axis), c.radii[end], c.sector);
+                continue;
+            }
+            box.extend(c.ends[end] - Vec3{r, r, r});
+            box.extend(c.ends[end] + Vec3{r, r, r});
         }
-        area_m2_ = pi * (c.radii[0] + c.radii[1]) * std::hypot(length(c.ends[1] - c.ends[0]), c.radii[1] - c.radii[0]);
+        area_m2_ =
+            pi * (c.radii[0] + c.radii[1]) * std::hypot(length(axis), c.radii[1] - c.radii[0]) * c.sector.share();
     }
     const auto* flat_shape = std::get_if<FlatEmitter>(&shape_);
     closed_form_ = flat_shape != nullptr
                        ? flat_ && (flat_shape->rectangle || flat_shape->summed_area.size() <= most_summed_triangles)
-                       : !std::holds_alternative<ConeEmitter>(shape_);
+                       : !std::holds_alternative<ConeEmitter>(shape_) && is_whole_ring();
     centre_ = box.centre();
     radius_m_ = 0.5 * box.diagonal();
     if (varied_.varied != nullptr)
@@ -274,7 +286,7 @@ bool LocalSource::crosses_horizon(const Point& at, const Direction& normal) cons
         return false;
     if (const auto* ball = std::get_if<SphereEmitter>(&shape_))
         return std::fabs(middle) < ball->sphere.radius;
-    if (const auto* ring = std::get_if<RingEmitter>(&shape_)) {
+    if (const auto* ring = std::get_if<RingEmitter>(&shape_); ring && is_whole_ring()) {
         const double sine = std::sqrt(std::fmax(0, 1 - std::pow(dot(normal, facing_), 2)));
         return std::fabs(middle) < ring->ring.outer_radius * sine;
     }
@@ -372,7 +384,8 @@ void LocalSource::sample(const Point& from, const UnitSquare* u, int count, Sour
 {
     Seen seen;
     if (flat_)
-        seen.frame = frame_about(facing_);
+        seen.frame =
+            is_whole_ring() ? frame_about(facing_) : sector_frame(std::get<RingEmitter>(shape_).ring.sector, facing_);
     seen.size = seen_size(from);
     if (const auto* flat = std::get_if<FlatEmitter>(&shape_);
         flat != nullptr && flat->rectangle && by_solid_angle(*flat, seen.size))

@@ -92,6 +92,12 @@ public:
 private:
     struct Seen;
     bool round() const noexcept { return !std::holds_alternative<FlatEmitter>(shape_); }
+    /// Not part of one; of other shapes than rings true.
+    bool is_whole_ring() const noexcept
+    {
+        const auto* ring = std::get_if<RingEmitter>(&shape_);
+        return ring == nullptr || ring->ring.sector.is_whole();
+    }
     Spectrum varied_radiance(const Point& from, const Direction& to_light, double distance_m,
                              const Direction& normal) const noexcept;
     double mean_strength() const noexcept;

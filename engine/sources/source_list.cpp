@@ -118,13 +118,16 @@ struct SourceList::Finder {
             keep(SphereEmitter{{to_world.point(s.centre), s.radius * scale}});
         } else if (surface.shape == Shape::ring) {
             const Ring& r = part.rings[surface.index];
-            keep(RingEmitter{{to_world.point(r.centre), transform_normal(to_world, r.normal), r.inner_radius * scale,
-                              r.outer_radius * scale}});
+            const Direction normal = transform_normal(to_world, r.normal);
+            keep(RingEmitter{{to_world.point(r.centre), normal, r.inner_radius * scale, r.outer_radius * scale,
+                              image_of(r.sector, r.normal, to_world, normal)}});
         } else if (surface.shape != Shape::bubble) {
             const Cone& c = part.cones[surface.index];
-            keep(ConeEmitter{
-                {{to_world.point(c.ends[0]), to_world.point(c.ends[1])}, {c.radii[0] * scale, c.radii[1] * scale}},
-                surface.shape == Shape::cup || surface.shape == Shape::tube});
+            const Vec3 axis = c.ends[1] - c.ends[0];
+            keep(ConeEmitter{{{to_world.point(c.ends[0]), to_world.point(c.ends[1])},
+                              {c.radii[0] * scale, c.radii[1] * scale},
+                              image_of(c.sector, normalized(axis), to_world, normalized(to_world.vector(axis)))},
+                             surface.shape == Shape::cup || surface.shape == Shape::tube});
         }
     }
     void add_all(const Scene& scene)

@@ -91,7 +91,7 @@ std::optional<PlanarMirror> polygon_mirror(const PlacedSurface& placed, Spectrum
 std::optional<PlanarMirror> ring_mirror(const PlacedSurface& placed, Spectrum reflectance)
 {
     const Ring& ring = placed.part.rings[placed.surface.index];
-    const Frame local = frame_about(ring.normal);
+    const Frame local = sector_frame(ring.sector, ring.normal);
     const Vec3 x = placed.to_world.vector(local.x), y = placed.to_world.vector(local.y);
     const Vec3 across = cross(x, y);
     if (!(length(across) > 0))
@@ -102,7 +102,9 @@ std::optional<PlanarMirror> ring_mirror(const PlacedSurface& placed, Spectrum re
     mirror.outline.to_disc = {py.y / determinant, -py.x / determinant, -px.y / determinant, px.x / determinant};
     mirror.outline.inner_squared = ring.inner_radius * ring.inner_radius;
     mirror.outline.outer_squared = ring.outer_radius * ring.outer_radius;
-    mirror.area_m2 = pi * (mirror.outline.outer_squared - mirror.outline.inner_squared) * length(across);
+    mirror.outline.sweep_rad = ring.sector.sweep_rad;
+    mirror.area_m2 =
+        pi * (mirror.outline.outer_squared - mirror.outline.inner_squared) * length(across) * ring.sector.share();
     mirror.radius_m = ring.outer_radius * std::sqrt(dot(x, x) + dot(y, y));
     mirror.error_m =
         error_steps * (max_abs(mirror.centre) + mirror.radius_m + max_abs(ring.centre) * stretch_of(placed.to_world));
@@ -208,7 +210,8 @@ bool FlatOutline::holds(double x, double y) const noexcept
     if (outer_squared > 0) {
         const double u = to_disc[0] * x + to_disc[1] * y, v = to_disc[2] * x + to_disc[3] * y;
         const double squared = u * u + v * v;
-        return squared >= inner_squared && squared <= outer_squared;
+        const Sector sector{{1, 0, 0}, sweep_rad};
+        return squared >= inner_squared && squared <= outer_squared && sector.holds({0, 0, 1}, {u, v, 0});
     }
     bool inside = false;
     for (const Edge& e : edges) {

@@ -9,8 +9,8 @@
 
 namespace lightwell {
 
-/// The outline of a flat surface in coordinates of its plane: edges with holes by the even-odd rule, or a disc with a
-/// concentric hole that any affine map may have turned into an ellipse.
+/// The outline of a flat surface in coordinates of its plane: edges with holes by the even-odd rule, or a disc, or part
+/// of one, with a concentric hole that any affine map may have turned into an ellipse.
 struct FlatOutline {
     struct Edge {
         double ax, ay, bx, by;
@@ -18,6 +18,7 @@ struct FlatOutline {
     std::vector<Edge> edges;
     std::array<double, 4> to_disc{}; ///< rows of the map to the frame in which the disc is round
     double inner_squared = 0, outer_squared = 0;
+    double sweep_rad = 2 * pi; ///< of the disc, from its x axis on
 
     bool holds(double x, double y) const noexcept;
 };

@@ -248,10 +248,15 @@ void SceneBuilder::add_shapes_to(Target& target, const Entity& entity)
             corners.push_back(map.point(corner));
         target.part.add_polygon(corners, modifier, name);
     });
+    // The map to metres mirrors nothing: sectors turn as directions do.
+    const auto turned = [&](const Sector& sector) {
+        return Sector{target.turn.vector(sector.start), sector.sweep_rad};
+    };
     for (const auto& [cone, shape] : shapes_.cones)
-        target.part.add_cone(
-            {{map.point(cone.ends[0]), map.point(cone.ends[1])}, {cone.radii[0] * unit, cone.radii[1] * unit}}, shape,
-            modifier, name);
+        target.part.add_cone({{map.point(cone.ends[0]), map.point(cone.ends[1])},
+                              {cone.radii[0] * unit, cone.radii[1] * unit},
+                              turned(cone.sector)},
+                             shape, modifier, name);
     for (Mesh& mesh : shapes_.meshes) {
         for (Point& point : mesh.points)
             point = map.point(point);
@@ -261,7 +266,7 @@ void SceneBuilder::add_shapes_to(Target& target, const Entity& entity)
     }
     for (const Ring& ring : shapes_.rings)
         target.part.add_ring({map.point(ring.centre), target.turn.vector(ring.normal), ring.inner_radius * unit,
-                              ring.outer_radius * unit},
+                              ring.outer_radius * unit, turned(ring.sector)},
                              modifier, name);
 }
 

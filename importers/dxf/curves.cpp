@@ -52,14 +52,9 @@ Reason add_arc(const Fields& fields, const ShapeOptions& options, Shapes& shapes
         sweep_deg += 360;
     const Arc arc{fields.point(10), radius, fields.get(50) * radians_per_degree, sweep_deg * radians_per_degree};
     const Affine axes = object_axes(fields.extrusion());
-    const int chords = chord_count(radius, arc.sweep_rad, options.chord_tolerance);
-    std::vector<Point> line;
-    for (int i = 0; i <= chords; ++i)
-        line.push_back(axes.point(arc.at(static_cast<double>(i) / chords)));
-    shapes.add_walls(line, false, axes.z * thickness);
-    shapes.deviations.chords += static_cast<std::size_t>(chords);
-    shapes.deviations.chord_error = chord_error(radius, arc.sweep_rad, chords);
-    return shapes.empty() ? &no_area : nullptr;
+    const Point foot = axes.point(arc.centre) + axes.z * std::fmin(thickness, 0);
+    shapes.add_cylinder(foot, foot + axes.z * std::fabs(thickness), radius, Shape::cylinder, arc.sector(axes));
+    return nullptr;
 }
 
 Reason add_ellipse(const Fields& fields, const ShapeOptions& options, Shapes& shapes)

@@ -23,6 +23,11 @@ Vec3 Arc::outward(double fraction) const
     return {std::cos(angle_rad), std::sin(angle_rad), 0};
 }
 
+Sector Arc::sector(const Affine& axes) const
+{
+    return {axes.vector(outward(sweep_rad > 0 ? 0 : 1)), std::fabs(sweep_rad)};
+}
+
 Point Arc::at(double fraction) const
 {
     return centre + outward(fraction) * radius;

@@ -2,6 +2,7 @@
 
 #include "engine/base/transform.h"
 #include "engine/base/vector.h"
+#include "engine/scene/sector.h"
 
 #include <span>
 
@@ -23,6 +24,8 @@ struct Arc {
     Point at(double fraction) const;
     /// Unit vector from the centre towards at(fraction).
     Vec3 outward(double fraction) const;
+    /// About the z axis of `axes`, which turn the arc's plane into the model.
+    Sector sector(const Affine& axes) const;
 };
 
 /// The arc between two different points with the bulge tan(sweep / 4).

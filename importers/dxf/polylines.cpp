@@ -11,6 +11,8 @@ namespace {
 constexpr double equal_within = 1e-9;
 /// Such a bulge moves the middle of a segment by less than 1e-12 of its length.
 constexpr double straight_below = 2e-12;
+/// An arc that is flatter has its centre so far away (10,000 lengths) that its place loses digits: it becomes chords.
+constexpr double round_from = 2.5e-5;
 
 /// A corner and the segment that leaves it. Object coordinates.
 struct Corner {
@@ -26,11 +28,13 @@ struct FlatPolyline {
     double thickness = 0; ///< upwards; a downward one has been turned into a lower elevation
 };
 
-/// One segment with its width: two borders of equally many points, equal where the width is zero.
+/// One segment with its width: two borders of equally many points, equal where the width is zero. An arc of one width
+/// is kept as such; then the borders have their ends only.
 struct Strip {
     std::vector<Point> left, right;
     bool is_straight = true;
     double start_width = 0, end_width = 0;
+    std::optional<Arc> arc = {};
 
     bool has_width() const { return start_width > 0 || end_width > 0; }
 };
@@ -89,8 +93,12 @@ Strip arc_strip(const Corner& from, const Point& to, double chord_tolerance, Dev
 {
     const Arc arc = arc_of_bulge(from.at, to, from.bulge);
     const double outer_radius = arc.radius + std::fmax(from.start_width, from.end_width) / 2;
-    const int chords = chord_count(outer_radius, arc.sweep_rad, chord_tolerance);
+    const bool exact = std::fabs(from.bulge) >= round_from &&
+                       std::fabs(from.end_width - from.start_width) <= equal_within * arc.radius;
+    const int chords = exact ? 1 : chord_count(outer_radius, arc.sweep_rad, chord_tolerance);
     Strip strip{{}, {}, false, from.start_width, from.end_width};
+    if (exact)
+        strip.arc = arc;
     for (int i = 0; i <= chords; ++i) {
         const double fraction = static_cast<double>(i) / chords;
         // The drawn corners themselves, so that neighbours meet without a gap.
@@ -101,6 +109,8 @@ Strip arc_strip(const Corner& from, const Point& to, double chord_tolerance, Dev
         strip.left.push_back(arc.sweep_rad > 0 ? inner : outer);
         strip.right.push_back(arc.sweep_rad > 0 ? outer : inner);
     }
+    if (exact)
+        return strip;
     deviations.chords += static_cast<std::size_t>(chords);
     deviations.chord_error = std::fmax(deviations.chord_error, chord_error(outer_radius, arc.sweep_rad, chords));
     return strip;
@@ -160,16 +170,12 @@ public:
     /// @param starts, ends  nothing joins there: a thick band is closed by a wall
     void add(const Strip& strip, bool starts, bool ends)
     {
-        if (strip.has_width())
-            add_band(strip);
-        if (!thick_)
+        if (strip.arc)
+            add_arc(strip);
+        else
+            add_borders(strip);
+        if (!thick_ || !strip.has_width())
             return;
-        for (std::size_t i = 0; i + 1 < strip.right.size(); ++i)
-            add_wall(strip.right[i], strip.right[i + 1]);
-        if (!strip.has_width())
-            return;
-        for (std::size_t i = strip.left.size() - 1; i > 0; --i)
-            add_wall(strip.left[i], strip.left[i - 1]);
         if (starts)
             add_wall(strip.left.front(), strip.right.front());
         if (ends)
@@ -177,6 +183,39 @@ public:
     }
 
 private:
+    void add_borders(const Strip& strip)
+    {
+        if (strip.has_width())
+            add_band(strip);
+        if (!thick_)
+            return;
+        for (std::size_t i = 0; i + 1 < strip.right.size(); ++i)
+            add_wall(strip.right[i], strip.right[i + 1]);
+        for (std::size_t i = strip.left.size() - 1; strip.has_width() && i > 0; --i)
+            add_wall(strip.left[i], strip.left[i - 1]);
+    }
+    /// The same of an arc: parts of rings and of cylinders.
+    void add_arc(const Strip& strip)
+    {
+        const Arc& arc = *strip.arc;
+        const Sector sector = arc.sector(axes_);
+        const Point foot = axes_.point(arc.centre);
+        const double half = strip.start_width / 2, outer = arc.radius + half, inner = std::fmax(0, arc.radius - half);
+        if (strip.has_width())
+            shapes_.rings.push_back({foot + height_, axes_.z, inner, outer, sector});
+        if (!thick_)
+            return;
+        if (strip.has_width()) {
+            shapes_.rings.push_back({foot, -axes_.z, inner, outer, turned_over(sector, axes_.z)});
+            shapes_.add_cylinder(foot, foot + height_, outer, Shape::cylinder, sector);
+            if (inner > 0)
+                shapes_.add_cylinder(foot, foot + height_, inner, Shape::tube, sector);
+        } else {
+            // As of a straight wall, the front looks to the right of the way it is drawn.
+            shapes_.add_cylinder(foot, foot + height_, outer, arc.sweep_rad > 0 ? Shape::cylinder : Shape::tube,
+                                 sector);
+        }
+    }
     void add_band(const Strip& strip)
     {
         std::vector<Point> outline;

@@ -146,9 +146,10 @@ void Shapes::add_walls(const std::vector<Point>& line, bool closed, const Vec3& 
         add_polygon({line.back(), line.front(), line.front() + height, line.back() + height});
 }
 
-void Shapes::add_cylinder(const Point& from, const Point& to, double radius, Shape cylinder_or_tube)
+void Shapes::add_cylinder(const Point& from, const Point& to, double radius, Shape cylinder_or_tube,
+                          const Sector& sector)
 {
-    cones.push_back({Cone{{from, to}, {radius, radius}}, cylinder_or_tube});
+    cones.push_back({Cone{{from, to}, {radius, radius}, sector}, cylinder_or_tube});
 }
 
 void Shapes::add_caps(const Point& centre, const Vec3& height, double inner_radius, double outer_radius)

@@ -17,7 +17,7 @@ struct ShapeOptions {
 
 /// How far the surfaces of an entity are from what was drawn, in drawing units.
 struct Deviations {
-    std::size_t chords = 0; ///< flat facets that stand for arcs
+    std::size_t chords = 0; ///< flat facets that stand for curves
     double chord_error = 0; ///< largest distance between arc and facets
     std::size_t split_faces = 0;
     double out_of_plane = 0;         ///< largest distance of a corner from the mean plane of its face
@@ -47,8 +47,9 @@ public:
     /// Four corners that may be out of plane (then two triangles along the shorter diagonal) or cross (then the two
     /// triangles that meet at the crossing).
     void add_quad(const Point& a, const Point& b, const Point& c, const Point& d);
-    /// The side of a cylinder with its axis from one end to the other.
-    void add_cylinder(const Point& from, const Point& to, double radius, Shape cylinder_or_tube);
+    /// The side of a cylinder with its axis from one end to the other, or part of it.
+    void add_cylinder(const Point& from, const Point& to, double radius, Shape cylinder_or_tube,
+                      const Sector& sector = {});
     /// The flat ends of a cylinder or tube, facing away from each other.
     void add_caps(const Point& centre, const Vec3& height, double inner_radius, double outer_radius);
 

@@ -104,13 +104,13 @@ void DxfEntities::write_entity(const Part& part, std::size_t first, std::size_t 
         if (surface.shape == Shape::ring)
             write_ring(part.rings[surface.index], modifier);
         else if (surface.shape == Shape::cylinder || surface.shape == Shape::tube)
-            write_cylinder(part.cones[surface.index], modifier);
+            write_cylinder(part.cones[surface.index], surface.shape == Shape::tube, modifier);
         else if (surface.shape == Shape::source)
             report_.add(Finding::ignored, surface.name, "distant sources are not written: DXF has none");
         else
             for (Face& face : faces_of(part, surface, options_.chord_tolerance_m, approximated))
                 faces.push_back(std::move(face));
-        if (surface.shape == Shape::tube)
+        if (surface.shape == Shape::tube && part.cones[surface.index].sector.is_whole())
             report_.add(Finding::approximated, surface.name, "the inward side of a tube is written as a cylinder");
     }
     if (approximated)
@@ -122,12 +122,14 @@ void DxfEntities::write_entity(const Part& part, std::size_t first, std::size_t 
 bool DxfEntities::write_circle(const Part& part, std::size_t first, std::size_t last)
 {
     if (last - first != 3 || part.surfaces[first].shape != Shape::cylinder ||
-        part.surfaces[first + 1].shape != Shape::ring || part.surfaces[first + 2].shape != Shape::ring)
+        !part.cones[part.surfaces[first].index].sector.is_whole() || part.surfaces[first + 1].shape != Shape::ring ||
+        part.surfaces[first + 2].shape != Shape::ring)
         return false;
     const Cone& cone = part.cones[part.surfaces[first].index];
     for (std::size_t end = 0; end < 2; ++end) {
         const Ring& disc = part.rings[part.surfaces[first + 1 + end].index];
-        if (!(disc.centre == cone.ends[end]) || disc.inner_radius != 0 || disc.outer_radius != cone.radii[end])
+        if (!disc.sector.is_whole() || !(disc.centre == cone.ends[end]) || disc.inner_radius != 0 ||
+            disc.outer_radius != cone.radii[end])
             return false;
     }
     const Vec3 height = cone.ends[1] - cone.ends[0];
@@ -141,37 +143,45 @@ bool DxfEntities::write_circle(const Part& part, std::size_t first, std::size_t 
     return true;
 }
 
-/// Two half circles of equal width: what programs call a donut.
-void DxfEntities::write_turned_polyline(const Point& centre, const Direction& normal, double radius, double width,
-                                        double thickness, ModifierId modifier)
+/// Two half circles of equal width, what programs call a donut; of part of a turn one arc.
+void DxfEntities::write_turned_polyline(const Point& centre, const Direction& normal, const Sector& sector,
+                                        const Drawn& drawn, ModifierId modifier)
 {
     const Affine axes = object_axes_of(normal);
+    const bool whole = sector.is_whole();
     const Point middle{dot(axes.x, centre), dot(axes.y, centre), dot(axes.z, centre)};
     begin("LWPOLYLINE", modifier);
     tags_.tag(100, "AcDbPolyline");
     tags_.tag(90, 2);
-    tags_.tag(70, 1);
-    tags_.number(43, width);
+    tags_.tag(70, whole ? 1 : 0);
+    tags_.number(43, drawn.width);
     tags_.number(38, middle.z);
-    tags_.number(39, thickness);
-    for (const double side : {-1.0, 1.0}) {
-        tags_.number(10, middle.x + side * radius);
-        tags_.number(20, middle.y);
-        tags_.number(42, 1);
+    tags_.number(39, drawn.thickness);
+    const Frame frame = whole ? Frame{-axes.x, -axes.y, axes.z} : sector_frame(sector, axes.z);
+    const Vec3 start = frame.x;
+    const Vec3 end = whole ? -start : start * std::cos(sector.sweep_rad) + frame.y * std::sin(sector.sweep_rad);
+    const double bulge = whole ? 1 : std::tan(sector.sweep_rad / 4);
+    for (const bool first : {true, false}) {
+        const Vec3 out = first == drawn.clockwise ? end : start;
+        tags_.number(10, middle.x + dot(axes.x, out) * drawn.radius);
+        tags_.number(20, middle.y + dot(axes.y, out) * drawn.radius);
+        tags_.number(42, !whole && !first ? 0 : drawn.clockwise ? -bulge : bulge);
     }
     tags_.point(210, axes.z);
 }
 
 void DxfEntities::write_ring(const Ring& ring, ModifierId modifier)
 {
-    write_turned_polyline(ring.centre, ring.normal, (ring.inner_radius + ring.outer_radius) / 2,
-                          ring.outer_radius - ring.inner_radius, 0, modifier);
+    write_turned_polyline(
+        ring.centre, ring.normal, ring.sector,
+        {(ring.inner_radius + ring.outer_radius) / 2, ring.outer_radius - ring.inner_radius, 0, false}, modifier);
 }
 
-void DxfEntities::write_cylinder(const Cone& cone, ModifierId modifier)
+void DxfEntities::write_cylinder(const Cone& cone, bool inwards, ModifierId modifier)
 {
     const Vec3 height = cone.ends[1] - cone.ends[0];
-    write_turned_polyline(cone.ends[0], normalized(height), cone.radii[0], 0, length(height), modifier);
+    write_turned_polyline(cone.ends[0], normalized(height), cone.sector,
+                          {cone.radii[0], 0, length(height), inwards && !cone.sector.is_whole()}, modifier);
 }
 
 void DxfEntities::write_faces(const std::vector<Face>& faces, ModifierId modifier)

@@ -33,9 +33,14 @@ private:
     void write_faces(const std::vector<Face>& faces, ModifierId modifier);
     void write_mesh(const std::vector<Face>& faces, ModifierId modifier);
     void write_ring(const Ring& ring, ModifierId modifier);
-    void write_cylinder(const Cone& cone, ModifierId modifier);
-    void write_turned_polyline(const Point& centre, const Direction& normal, double radius, double width,
-                               double thickness, ModifierId modifier);
+    void write_cylinder(const Cone& cone, bool inwards, ModifierId modifier);
+    /// A circle, or an arc, drawn with a width or a thickness.
+    struct Drawn {
+        double radius, width, thickness;
+        bool clockwise; ///< its front looks to the centre
+    };
+    void write_turned_polyline(const Point& centre, const Direction& normal, const Sector& sector, const Drawn& drawn,
+                               ModifierId modifier);
     void write_instance(const Instance& instance);
     void write_out(const Instance& instance, const Affine& outer, const std::vector<Binding>& bindings);
     void find_layers_by_insert();

@@ -15,23 +15,33 @@ int chords_of_turn(double radius, double tolerance)
     return static_cast<int>(std::clamp(count, static_cast<double>(fewest), static_cast<double>(most)));
 }
 
-Point on_circle(const Point& centre, const Frame& frame, double radius, int i, int count)
+/// Chords of the part of a turn that a surface covers.
+int chords_of(const Sector& sector, int of_turn)
 {
-    const double angle = 2 * pi * (i % count) / count;
+    return std::max(1, static_cast<int>(std::ceil(of_turn * sector.share())));
+}
+
+Point on_circle(const Point& centre, const Frame& frame, const Sector& sector, double radius, int i, int count)
+{
+    const double angle = sector.is_whole() ? 2 * pi * (i % count) / count : sector.sweep_rad * i / count;
     return centre + (frame.x * std::cos(angle) + frame.y * std::sin(angle)) * radius;
 }
 
-std::vector<Face> cone_faces(const Cone& cone, bool inwards, int count)
+std::vector<Face> cone_faces(const Cone& cone, bool inwards, int of_turn)
 {
-    const Frame frame = frame_about(normalized(cone.ends[1] - cone.ends[0]));
+    const Frame frame = sector_frame(cone.sector, normalized(cone.ends[1] - cone.ends[0]));
+    const int count = chords_of(cone.sector, of_turn);
+    const auto at = [&](int end, int i) {
+        return on_circle(cone.ends[end], frame, cone.sector, cone.radii[end], i, count);
+    };
     std::vector<Face> faces;
     for (int i = 0; i < count; ++i) {
-        Face face{on_circle(cone.ends[0], frame, cone.radii[0], i, count)};
+        Face face{at(0, i)};
         if (cone.radii[0] > 0)
-            face.push_back(on_circle(cone.ends[0], frame, cone.radii[0], i + 1, count));
-        face.push_back(on_circle(cone.ends[1], frame, cone.radii[1], i + 1, count));
+            face.push_back(at(0, i + 1));
+        face.push_back(at(1, i + 1));
         if (cone.radii[1] > 0)
-            face.push_back(on_circle(cone.ends[1], frame, cone.radii[1], i, count));
+            face.push_back(at(1, i));
         if (inwards)
             std::reverse(face.begin(), face.end());
         faces.push_back(std::move(face));
@@ -41,15 +51,15 @@ std::vector<Face> cone_faces(const Cone& cone, bool inwards, int count)
 
 std::vector<Face> ring_faces(const Ring& ring, double tolerance)
 {
-    const Frame frame = frame_about(ring.normal);
-    const int count = chords_of_turn(ring.outer_radius, tolerance);
+    const Frame frame = sector_frame(ring.sector, ring.normal);
+    const int count = chords_of(ring.sector, chords_of_turn(ring.outer_radius, tolerance));
+    const auto at = [&](double radius, int i) { return on_circle(ring.centre, frame, ring.sector, radius, i, count); };
     std::vector<Face> faces;
     for (int i = 0; i < count; ++i) {
-        Face face{on_circle(ring.centre, frame, ring.outer_radius, i, count),
-                  on_circle(ring.centre, frame, ring.outer_radius, i + 1, count)};
+        Face face{at(ring.outer_radius, i), at(ring.outer_radius, i + 1)};
         if (ring.inner_radius > 0)
-            face.push_back(on_circle(ring.centre, frame, ring.inner_radius, i + 1, count));
-        face.push_back(on_circle(ring.centre, frame, ring.inner_radius, i, count));
+            face.push_back(at(ring.inner_radius, i + 1));
+        face.push_back(at(ring.inner_radius, i));
         faces.push_back(std::move(face));
     }
     return faces;

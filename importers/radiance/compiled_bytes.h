@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "arrays are kept as th
 
 inline constexpr std::string_view compiled_mark = "LWscene\n";
 inline constexpr std::string_view compiled_end = "LWend..\n";
-inline constexpr std::uint32_t compiled_version = 1;
+inline constexpr std::uint32_t compiled_version = 2;
 
 /// A checksum over bytes that come in pieces; the sum depends on their order.
 class ByteSum {

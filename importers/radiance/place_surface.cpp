@@ -90,14 +90,27 @@ void add_faceted_sphere(FacetMaker& facets, const Sphere& sphere, bool inwards, 
         }
 }
 
+/// Steps for the part of a turn that a surface covers.
+int steps_of(const Sector& sector, int turn)
+{
+    return std::max(1, static_cast<int>(std::ceil(turn * sector.share())));
+}
+
+/// Angle from the start of the sector; a whole turn comes back to the bit.
+double azimuth_of(const Sector& sector, int step, int steps)
+{
+    return sector.is_whole() ? 2 * pi * (step % steps) / steps : sector.sweep_rad * step / steps;
+}
+
 void add_faceted_cone(FacetMaker& facets, const Cone& cone, bool inwards, int turn)
 {
-    const Frame frame = frame_about(normalized(cone.ends[1] - cone.ends[0]));
+    const Frame frame = sector_frame(cone.sector, normalized(cone.ends[1] - cone.ends[0]));
+    const int steps = steps_of(cone.sector, turn);
     const auto at = [&](int end, int step) {
-        const double azimuth = 2 * pi * (step % turn) / turn;
+        const double azimuth = azimuth_of(cone.sector, step, steps);
         return cone.ends[end] + (frame.x * std::cos(azimuth) + frame.y * std::sin(azimuth)) * cone.radii[end];
     };
-    for (int step = 0; step < turn; ++step) {
+    for (int step = 0; step < steps; ++step) {
         std::vector<Point> corners{at(0, step)};
         if (cone.radii[0] > 0)
             corners.push_back(at(0, step + 1));
@@ -110,19 +123,22 @@ void add_faceted_cone(FacetMaker& facets, const Cone& cone, bool inwards, int tu
 
 void add_faceted_ring(FacetMaker& facets, const Ring& ring, int turn)
 {
-    const Frame frame = frame_about(ring.normal);
+    const Frame frame = sector_frame(ring.sector, ring.normal);
+    const int steps = steps_of(ring.sector, turn);
     const auto at = [&](double radius, int step) {
-        const double azimuth = 2 * pi * (step % turn) / turn;
+        const double azimuth = azimuth_of(ring.sector, step, steps);
         return ring.centre + (frame.x * std::cos(azimuth) + frame.y * std::sin(azimuth)) * radius;
     };
     std::vector<Point> corners;
-    for (int step = 0; step < turn; ++step)
+    for (int step = 0; step < steps; ++step)
         corners.push_back(at(ring.outer_radius, step));
-    if (ring.inner_radius > 0) {
-        corners.push_back(at(ring.outer_radius, 0));
-        for (int step = turn; step >= 0; --step)
+    if (ring.inner_radius > 0 || !ring.sector.is_whole())
+        corners.push_back(at(ring.outer_radius, steps));
+    if (ring.inner_radius > 0)
+        for (int step = steps; step >= 0; --step)
             corners.push_back(at(ring.inner_radius, step));
-    }
+    else if (!ring.sector.is_whole())
+        corners.push_back(ring.centre);
     facets.add(std::move(corners));
 }
 
@@ -131,6 +147,8 @@ double greatest_stretch(const Affine& map) noexcept
     // The Frobenius norm bounds the greatest singular value from above.
     return std::sqrt(dot(map.x, map.x) + dot(map.y, map.y) + dot(map.z, map.z));
 }
+
+} // namespace
 
 void add_facets(Part& to, const Part& from, const Surface& surface, const Affine& map, ModifierId modifier,
                 const std::string& name, double tolerance, Report& report)
@@ -150,10 +168,14 @@ void add_facets(Part& to, const Part& from, const Surface& surface, const Affine
         const bool inwards = surface.shape == Shape::cup || surface.shape == Shape::tube;
         add_faceted_cone(facets, cone, inwards, turn(std::max(cone.radii[0], cone.radii[1]), 1));
     }
+    const char* const what = sector_of(from, surface).is_whole()
+                                 ? "round shape under a map that is no similarity"
+                                 : "part of a round shape, which the text has no word for";
     report.add(Finding::approximated, name,
-               "round shape under a map that is no similarity: written as flat facets within " + shortest(tolerance) +
-                   " m");
+               what + std::string{": written as flat facets within "} + shortest(tolerance) + " m");
 }
+
+namespace {
 
 /// True when the image is again a sphere, cone or ring; it is then added.
 bool add_round(Part& to, const Part& from, const Surface& surface, const Affine& map, ModifierId modifier,
@@ -169,9 +191,10 @@ bool add_round(Part& to, const Part& from, const Surface& surface, const Affine&
     if (surface.shape == Shape::ring) {
         const Ring& ring = from.rings[surface.index];
         const double scale = scale_across(map, ring.normal);
+        const Direction normal = transform_normal(map, ring.normal);
         if (scale > 0)
-            to.add_ring({map.point(ring.centre), transform_normal(map, ring.normal), ring.inner_radius * scale,
-                         ring.outer_radius * scale},
+            to.add_ring({map.point(ring.centre), normal, ring.inner_radius * scale, ring.outer_radius * scale,
+                         image_of(ring.sector, ring.normal, map, normal)},
                         modifier, name);
         return scale > 0;
     }
@@ -182,7 +205,9 @@ bool add_round(Part& to, const Part& from, const Surface& surface, const Affine&
     const Vec3 image = map.vector(axis);
     if (!(scale > 0) || !perpendicular(image, map.vector(frame.x)) || !perpendicular(image, map.vector(frame.y)))
         return false;
-    to.add_cone({{map.point(cone.ends[0]), map.point(cone.ends[1])}, {cone.radii[0] * scale, cone.radii[1] * scale}},
+    to.add_cone({{map.point(cone.ends[0]), map.point(cone.ends[1])},
+                 {cone.radii[0] * scale, cone.radii[1] * scale},
+                 image_of(cone.sector, axis, map, normalized(image))},
                 surface.shape, modifier, name);
     return true;
 }

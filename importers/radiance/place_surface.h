@@ -12,6 +12,10 @@ namespace lightwell::scene_text {
 void add_image(Part& to, const Part& from, const Surface& surface, const Affine& map, ModifierId modifier,
                const std::string& name, double chord_tolerance_m, Report& report);
 
+/// Adds facets for the image of a round shape, noted.
+void add_facets(Part& to, const Part& from, const Surface& surface, const Affine& map, ModifierId modifier,
+                const std::string& name, double tolerance, Report& report);
+
 /// Whether the map's linear part is the identity (nothing but a translation).
 bool is_translation(const Affine& map) noexcept;
 

@@ -124,12 +124,17 @@ void SceneWriter::write_surface(Output& out, const Part& part, const Surface& su
         modifier = transformed(changed_, table_, modifier, place.map, {}, name);
     if (surface.shape == Shape::mesh)
         return write_mesh(out, part, surface, modifier, name, place.map);
-    if (!place.expanded) {
+    const bool whole = sector_of(part, surface).is_whole();
+    if (!place.expanded && whole) {
         const std::string word = use(out, modifier);
         return append_surface(out.file.text(), part, surface, word);
     }
     Part image;
-    add_image(image, part, surface, place.map, modifier, name, options_.chord_tolerance_m, report_);
+    if (whole)
+        add_image(image, part, surface, place.map, modifier, name, options_.chord_tolerance_m, report_);
+    else
+        add_facets(image, part, surface, place.expanded ? place.map : Affine{}, modifier, name,
+                   options_.chord_tolerance_m, report_);
     const std::string word = use(out, modifier);
     for (const Surface& piece : image.surfaces)
         append_surface(out.file.text(), image, piece, word);

@@ -170,6 +170,77 @@ TEST(RayQueries, NestedMirroredInstancesMeetTheSameSurfacesAsTheirExpansion)
     EXPECT_GT(met, 1000);
 }
 
+/// A cone and a ring, whole or in parts that make up the whole turn.
+Scene round_scene(int parts)
+{
+    Scene scene;
+    const ModifierId grey = add_grey(scene);
+    const Direction axis = normalized({1, 2, -1});
+    const Frame frame = frame_about(axis);
+    for (int i = 0; i < parts; ++i) {
+        const double from = 0.7 + 2 * pi * i / parts;
+        const Sector sector =
+            parts == 1 ? Sector{} : Sector{frame.x * std::cos(from) + frame.y * std::sin(from), 2 * pi / parts};
+        scene.root.add_cone({{{0, 0, 0}, axis * 2}, {1, 0.4}, sector}, Shape::cone, grey, "cone");
+        scene.root.add_ring({axis * 2.5, axis, 0.3, 1.1, sector}, grey, "ring");
+    }
+    return scene;
+}
+
+TEST(RayQueries, PartsThatMakeUpAWholeTurnAreMetWhereTheWholeIs)
+{
+    const Scene whole = round_scene(1), halves = round_scene(2), fifths = round_scene(5);
+    const RayQueries rays(whole), rays_of_halves(halves), rays_of_fifths(fifths);
+    RandomStream random(5);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Point from{6 * random.next() - 3, 6 * random.next() - 3, 6 * random.next() - 3};
+        const Ray ray{from, uniform_sphere(random.square())};
+        Hit hit;
+        const bool met = rays.closest(ray, hit);
+        for (const RayQueries* parts : {&rays_of_halves, &rays_of_fifths}) {
+            Hit part;
+            ASSERT_EQ(parts->closest(ray, part), met) << i;
+            if (met) {
+                ASSERT_NEAR(part.t, hit.t, 1e-14) << i;
+                ASSERT_LT(length(part.normal - hit.normal), 1e-14) << i;
+            }
+        }
+        hits += met;
+    }
+    EXPECT_GT(hits, 1000);
+}
+
+TEST(RayQueries, NoRayLeavesABodyOfPartsOfRoundShapes)
+{
+    // A slice of a cheese: two plates, a mantle, and two flat cuts through the axis.
+    for (const double sweep : {0.3, 2.0, pi, 5.0}) {
+        SCOPED_TRACE(sweep);
+        Scene scene;
+        const ModifierId grey = add_grey(scene);
+        const Affine place = irrational_turn();
+        const Vec3 axis = place.z, start = place.x;
+        const Vec3 end = place.vector({std::cos(sweep), std::sin(sweep), 0});
+        const Sector sector{start, sweep};
+        scene.root.add_cone({{{}, axis}, {2, 2}, sector}, Shape::cylinder, grey, "mantle");
+        scene.root.add_ring({{}, axis, 0, 2, sector}, grey, "plate");
+        scene.root.add_ring({axis, axis, 0, 2, sector}, grey, "lid");
+        for (const Vec3& cut : {start, end})
+            scene.root.add_polygon({{}, cut * 2, cut * 2 + axis, axis}, grey, "cut");
+        validate(scene);
+        const RayQueries rays(scene);
+        RandomStream random(8);
+        int escaped = 0;
+        for (int i = 0; i < 100000; ++i) {
+            const double angle = sweep * (0.1 + 0.8 * random.next());
+            const Point inside = place.point({std::cos(angle), std::sin(angle), 0.5});
+            Hit hit;
+            escaped += !rays.closest({inside, uniform_sphere(random.square())}, hit);
+        }
+        EXPECT_EQ(escaped, 0);
+    }
+}
+
 TEST(RayQueries, ShadowRaysMultiplyGlassAndStopAtWalls)
 {
     Scene scene;

@@ -73,6 +73,25 @@ TEST(SurfaceCharts, AnOutlineWithAHoleKeepsItsAreaAndLeavesTheHoleOut)
         EXPECT_FALSE(sensor.position.x > 1 && sensor.position.x < 2 && sensor.position.y > 1 && sensor.position.y < 2);
 }
 
+TEST(SurfaceCharts, PartsOfRoundShapesHaveSensorsWithinTheirSector)
+{
+    const Sector quarter{{0, 1, 0}, pi / 2}; // x <= 0, y >= 0
+    Scene cylinder, ring, disc;
+    cylinder.root.add_cone({{{0, 0, 0}, {0, 0, 2}}, {3, 3}, quarter}, Shape::cylinder, paint(cylinder), "wall");
+    ring.root.add_ring({{0, 0, 0}, {0, 0, 1}, 1, 3, quarter}, paint(ring), "ring");
+    disc.root.add_ring({{0, 0, 0}, {0, 0, 1}, 0, 3, quarter}, paint(disc), "disc");
+    for (const auto& [scene, area] :
+         {std::pair{&cylinder, 3 * pi}, std::pair{&ring, 2 * pi}, std::pair{&disc, 9 * pi / 4}}) {
+        const SurfaceChart chart = only_chart(*scene, 0.2);
+        EXPECT_NEAR(sum_of(chart.areas_m2), area, 1e-9);
+        EXPECT_GT(chart.sensors.size(), 100u);
+        for (const Sensor& sensor : chart.sensors) {
+            EXPECT_LE(sensor.position.x, 1e-9);
+            EXPECT_GE(sensor.position.y, -1e-9);
+        }
+    }
+}
+
 TEST(SurfaceCharts, SensorsOfATriangleLieWithinIt)
 {
     Scene scene;

@@ -81,7 +81,7 @@ TEST(DxfBadInput, ScalesAndArcsBeyondReasonAreRefused)
     expect_error(drawing(block, "0 INSERT 2 B 8 A-CHAIR 41 1e-200 42 1e-200"), {"A-CHAIR", "1e-200"});
     std::string arcs;
     for (int i = 0; i < 3000; ++i)
-        arcs += "0 ARC 8 A-ARC 40 1e20 50 0 51 180 39 1e20 ";
+        arcs += "0 LWPOLYLINE 8 A-ARC 39 1e20 10 -1e20 20 0 40 0 41 1e19 42 1 10 1e20 20 0 ";
     expect_error(drawing("", arcs), {"A-ARC", "facets", "tolerance"});
 }
 

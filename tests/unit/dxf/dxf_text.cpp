@@ -7,19 +7,6 @@
 #include <unistd.h>
 
 namespace lightwell::test {
-namespace {
-
-/// Bounds of a disc: its extent along an axis is the radius times the sine of the angle to the normal.
-void extend_by_disc(Box& box, const Point& centre, const Direction& normal, double radius)
-{
-    const auto spread = [&](double n) { return radius * std::sqrt(std::fmax(0.0, 1 - n * n)); };
-    const Vec3 reach{spread(normal.x), spread(normal.y), spread(normal.z)};
-    box.extend(centre + reach);
-    box.extend(centre - reach);
-}
-
-} // namespace
-
 TemporaryFile::TemporaryFile(const std::string& content)
 {
     static int number = 0;
@@ -98,27 +85,7 @@ Box exact_bounds(const Imported& imported)
 {
     Box box;
     visit_expanded(imported.scene, [&](const Part& part, const Surface& surface, const Affine& map, ModifierId) {
-        const double scale = similarity_scale(map);
-        if (surface.shape == Shape::polygon) {
-            const Polygon& polygon = part.polygons[surface.index];
-            for (std::uint32_t i = 0; i < polygon.count; ++i)
-                box.extend(map.point(part.points[polygon.first + i]));
-        } else if (surface.shape == Shape::sphere) {
-            const Sphere& sphere = part.spheres[surface.index];
-            const double reach = scale * sphere.radius;
-            box.extend(map.point(sphere.centre) + Vec3{reach, reach, reach});
-            box.extend(map.point(sphere.centre) - Vec3{reach, reach, reach});
-        } else if (surface.shape == Shape::source) {
-            return; // nowhere
-        } else if (surface.shape == Shape::ring) {
-            const Ring& ring = part.rings[surface.index];
-            extend_by_disc(box, map.point(ring.centre), transform_normal(map, ring.normal), scale * ring.outer_radius);
-        } else {
-            const Cone& cone = part.cones[surface.index];
-            const Direction axis = normalized(map.vector(cone.ends[1] - cone.ends[0]));
-            for (const int end : {0, 1})
-                extend_by_disc(box, map.point(cone.ends[end]), axis, scale * cone.radii[end]);
-        }
+        box.extend(surface_bounds(part, surface, map));
     });
     return box;
 }

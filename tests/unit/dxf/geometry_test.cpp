@@ -100,20 +100,23 @@ TEST(DxfUnits, TurnsAFileWithYUpOntoItsFeet)
     EXPECT_LT(length(box.high - Point{4, 0, 5}), 1e-12);
 }
 
-TEST(DxfArcs, StateTheErrorOfTheirFacetsInTheModelAlsoInsideScaledBlocks)
+TEST(DxfArcs, OfABandThatWidensStateTheErrorOfTheirFacetsInTheModelAlsoInsideScaledBlocks)
 {
-    const std::string arc = "0 ARC 8 A 10 0 20 0 40 1 50 0 51 180 39 1";
+    // A half circle of radius 1 that widens to 0.02: its outer border is a little more than 1 away.
+    const std::string arc = "0 LWPOLYLINE 8 A 90 2 70 0 10 -1 20 0 40 0 41 0.02 42 1 10 1 20 0";
     const std::string block = "0 BLOCK 2 B 10 0 20 0 30 0 " + arc + " 0 ENDBLK";
     ImportOptions options;
     options.chord_tolerance_m = 0.01;
     const auto facets = [&](const std::string& scale) {
         const Imported imported =
             imported_text(drawing(block, "0 INSERT 2 B 41 " + scale + " 42 " + scale + " 43 " + scale), options);
-        return layer_areas(imported).at("A").surfaces;
+        const Part& part = imported.scene.prototypes.at(0);
+        EXPECT_EQ(part.polygons.size(), 1u);
+        return (part.polygons.at(0).count - 1) / 2; // two borders that meet at the start
     };
-    // r (1 - cos(sweep / 2n)) <= 0.01 m for r = 1 m and r = 100 m
-    EXPECT_EQ(facets("1"), static_cast<std::size_t>(std::ceil(pi / (2 * std::acos(1 - 0.01)))));
-    EXPECT_EQ(facets("100"), static_cast<std::size_t>(std::ceil(pi / (2 * std::acos(1 - 0.0001)))));
+    // r (1 - cos(sweep / 2n)) <= 0.01 m for r = 1.01 m and r = 101 m
+    EXPECT_EQ(facets("1"), static_cast<std::size_t>(std::ceil(pi / (2 * std::acos(1 - 0.01 / 1.01)))));
+    EXPECT_EQ(facets("100"), static_cast<std::size_t>(std::ceil(pi / (2 * std::acos(1 - 0.0001 / 1.01)))));
 }
 
 TEST(DxfSolids, DrawnInTheOrderOfTheOutlineAreTheTwoTrianglesThatAreSeen)

@@ -130,6 +130,10 @@ private:
         part.add_ring({foot, map.x, radius / 3, radius}, modifier, next_name());
         part.add_ring({head, map.y, 0, radius}, modifier, next_name());
         part.add_cone({{head, foot}, {radius, radius}}, Shape::cylinder, modifier, next_name());
+        const auto sector = [&](const Vec3& start) { return Sector{start, number(0.1, 6)}; };
+        part.add_cone({{foot, head}, {radius, radius}, sector(map.x)}, Shape::cylinder, modifier, next_name());
+        part.add_cone({{foot, head}, {radius, radius}, sector(map.y)}, Shape::tube, modifier, next_name());
+        part.add_ring({foot, map.x, radius / 3, radius, sector(map.y)}, modifier, next_name());
     }
 
     Imported model_;
@@ -145,6 +149,22 @@ struct Seen {
     std::vector<Point> points;
 };
 
+/// Both ends of an arc, whichever comes first, and its middle.
+void add_rim(Seen& seen, const Sector& sector, const Direction& axis, const Point& centre, double radius,
+             const Affine& map)
+{
+    if (sector.is_whole())
+        return;
+    const Frame frame = sector_frame(sector, axis);
+    const auto at = [&](double share) {
+        const double angle = share * sector.sweep_rad;
+        return map.point(centre + (frame.x * std::cos(angle) + frame.y * std::sin(angle)) * radius);
+    };
+    seen.points.push_back(at(0) * 0.5 + at(1) * 0.5);
+    seen.points.push_back(at(0.5));
+    seen.points.push_back(at(map.determinant() < 0 ? 1 : 0));
+}
+
 std::vector<Seen> seen_in(const Imported& model)
 {
     std::vector<Seen> list;
@@ -155,14 +175,16 @@ std::vector<Seen> seen_in(const Imported& model)
             const Polygon& polygon = part.polygons[surface.index];
             for (std::uint32_t i = 0; i < polygon.count; ++i)
                 seen.points.push_back(map.point(part.points[polygon.first + i]));
-        } else if (surface.shape == Shape::cylinder) {
+        } else if (surface.shape == Shape::cylinder || surface.shape == Shape::tube) {
             const Cone& cone = part.cones[surface.index];
             seen.points = {map.point(cone.ends[0]), map.point(cone.ends[1]), {scale * cone.radii[0], 0, 0}};
+            add_rim(seen, cone.sector, normalized(cone.ends[1] - cone.ends[0]), cone.ends[0], cone.radii[0], map);
         } else if (surface.shape == Shape::ring) {
             const Ring& ring = part.rings[surface.index];
             seen.points = {map.point(ring.centre),
                            map.point(ring.centre) + transform_normal(map, ring.normal),
                            {scale * ring.inner_radius, scale * ring.outer_radius, 0}};
+            add_rim(seen, ring.sector, ring.normal, ring.centre, ring.outer_radius, map);
         }
         list.push_back(std::move(seen));
     });

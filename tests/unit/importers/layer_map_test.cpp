@@ -306,6 +306,69 @@ TEST_F(LayerMaps, ClosedBodiesEmitOutwardsHoweverTheyWereDrawn)
     EXPECT_NEAR(radiance_of("LAMPS") * lumens_per_watt, 10000, 1e-9);
 }
 
+/// Three quarters of a thick ring, its fronts inwards when `inside_out`: corners as drawn, arcs as worked out.
+void bent_bar(Part& root, ModifierId lamp, bool inside_out, bool with_ends)
+{
+    const double sweep = 1.5 * pi, s = std::sqrt(0.5);
+    const Point centre{3, 4, 1};
+    const Sector sector{{s, s, 0}, sweep};
+    const Direction up{0, 0, 1};
+    const auto add_ring = [&](double z, const Direction& normal) {
+        Ring ring{centre + up * z, up, 1, 2, sector};
+        if (normal.z < 0)
+            ring = {ring.centre, normal, 1, 2, turned_over(sector, up)};
+        root.add_ring(ring, lamp, "bar");
+    };
+    add_ring(0.5, inside_out ? -up : up);
+    add_ring(0, inside_out ? up : -up);
+    root.add_cone({{centre, centre + up * 0.5}, {2, 2}, sector}, inside_out ? Shape::tube : Shape::cylinder, lamp,
+                  "bar");
+    root.add_cone({{centre, centre + up * 0.5}, {1, 1}, sector}, inside_out ? Shape::cylinder : Shape::tube, lamp,
+                  "bar");
+    if (!with_ends)
+        return;
+    for (const Vec3& out : {Vec3{s, s, 0}, Vec3{s, -s, 0}}) {
+        std::vector<Point> end{centre + out, centre + out * 2, centre + out * 2 + up * 0.5, centre + out + up * 0.5};
+        if ((out.y < 0) != inside_out)
+            std::reverse(end.begin(), end.end());
+        root.add_polygon(end, lamp, "bar");
+    }
+}
+
+void expect_bar_looks_outwards(const Part& root)
+{
+    ASSERT_EQ(root.surfaces.size(), 6u);
+    EXPECT_EQ(root.rings[0].normal.z, 1);
+    EXPECT_EQ(root.rings[1].normal.z, -1);
+    EXPECT_TRUE(root.rings[1].sector.holds(root.rings[1].normal, {-1, 0, 0})) << "still the part that was drawn";
+    EXPECT_FALSE(root.rings[1].sector.holds(root.rings[1].normal, {1, 0, 0}));
+    EXPECT_EQ(root.surfaces[2].shape, Shape::cylinder);
+    EXPECT_EQ(root.surfaces[3].shape, Shape::tube);
+}
+
+TEST_F(LayerMaps, ABentBarOfPartsOfRoundShapesEmitsOutwards)
+{
+    bent_bar(imported_.scene.root, keys_.modifier_for(on("LAMPS")), false, true);
+    apply("[[rule]]\nlayer = \"LAMPS\"\nuse = \"lamp\"\nside = \"back\"\n");
+    expect_bar_looks_outwards(imported_.scene.root);
+    EXPECT_NEAR(radiance_of("LAMPS") * lumens_per_watt, 10000, 1e-9);
+}
+
+TEST_F(LayerMaps, ABentBarDrawnInsideOutEmitsOutwardsToo)
+{
+    bent_bar(imported_.scene.root, keys_.modifier_for(on("LAMPS")), true, true);
+    apply("[[rule]]\nlayer = \"LAMPS\"\nuse = \"lamp\"\nside = \"back\"\n");
+    expect_bar_looks_outwards(imported_.scene.root);
+}
+
+TEST_F(LayerMaps, ABentBarWithoutItsEndsIsASheet)
+{
+    bent_bar(imported_.scene.root, keys_.modifier_for(on("LAMPS")), false, false);
+    apply("[[rule]]\nlayer = \"LAMPS\"\nuse = \"lamp\"\n");
+    EXPECT_EQ(imported_.scene.root.surfaces.size(), 8u);
+    EXPECT_NEAR(radiance_of("LAMPS") * lumens_per_watt, 5000, 1e-9);
+}
+
 TEST_F(LayerMaps, ABodyWithAHoleIsASheet)
 {
     cube(imported_.scene.root, keys_.modifier_for(on("LAMPS")));

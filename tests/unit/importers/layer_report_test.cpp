@@ -218,7 +218,7 @@ TEST(SurfaceBoxes, OfTurnedRoundShapesAreTight)
     // A cylinder along x turned by 45 degrees about z: half its length and its radius, seen along each axis.
     Part part;
     part.add_cone({{{-1, 0, 0}, {1, 0, 0}}, {0.5, 0.5}}, Shape::cylinder, 0, "c");
-    const Box box = mapped_bounds(part, part.surfaces[0], Affine::rotate(2, pi / 4));
+    const Box box = surface_bounds(part, part.surfaces[0], Affine::rotate(2, pi / 4));
     const double reach = (1 + 0.5) * std::sqrt(0.5);
     EXPECT_NEAR(box.high.x, reach, 1e-12);
     EXPECT_NEAR(box.high.y, reach, 1e-12);
@@ -226,7 +226,7 @@ TEST(SurfaceBoxes, OfTurnedRoundShapesAreTight)
     Part ball;
     ball.add_sphere({{1, 0, 0}, 2}, Shape::sphere, 0, "s");
     const Box squashed =
-        mapped_bounds(ball, ball.surfaces[0], compose(Affine::rotate(2, 1), Affine::scale({1, 1, .5})));
+        surface_bounds(ball, ball.surfaces[0], compose(Affine::rotate(2, 1), Affine::scale({1, 1, .5})));
     EXPECT_NEAR(squashed.high.x, std::cos(1.0) + 2, 1e-12);
     EXPECT_NEAR(squashed.high.z, 1, 1e-12);
 }

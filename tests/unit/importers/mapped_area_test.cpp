@@ -100,6 +100,21 @@ TEST(MappedArea, CylindersAndConesMatchTheirFacetsInTheLimit)
     }
 }
 
+TEST(MappedArea, PartsOfACylinderAddUpToTheWhole)
+{
+    const Direction start{0, 1, 0};
+    Part whole;
+    whole.add_cone({{{0, 0, 0}, {0, 0, 2}}, {1, 1}}, Shape::cylinder, 0, "c");
+    double sum = 0;
+    for (const auto& [from, sweep] : {std::pair{0.0, 0.4}, std::pair{0.4, 2 * pi - 0.4}}) {
+        Part part;
+        part.add_cone({{{0, 0, 0}, {0, 0, 2}}, {1, 1}, {Affine::rotate(2, from).vector(start), sweep}}, Shape::cylinder,
+                      0, "c");
+        sum += area_of(part, sheared);
+    }
+    EXPECT_NEAR(sum / area_of(whole, sheared), 1, 1e-9);
+}
+
 TEST(MappedArea, RingsBecomeEllipticAnnuli)
 {
     Part part;

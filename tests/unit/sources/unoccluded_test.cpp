@@ -160,6 +160,43 @@ TEST(LocalSource, KnowsItsIrradianceWhereAClosedFormHolds)
     EXPECT_FALSE(beam.projected_solid_angle_sr({0, 0, 0}, {0, 0, 1})) << "a beam";
 }
 
+/// What a lamp sends to a point, by a grid of samples.
+double sampled_irradiance(const LocalSource& lamp, const Point& at, const Direction& normal)
+{
+    constexpr int steps = 512;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i)
+        for (int k = 0; k < steps; ++k) {
+            const SourceSample s = lamp.sample(at, UnitSquare{(i + 0.5) / steps, (k + 0.5) / steps});
+            if (s.density_per_sr > 0)
+                sum += s.radiance.g * std::fmax(0, dot(s.to_light, normal)) / s.density_per_sr;
+        }
+    return sum / (steps * steps);
+}
+
+TEST(LocalSource, PartsThatMakeUpAWholeTurnGiveTheLightOfTheWhole)
+{
+    const Material light = Light{Spectrum::grey(1)};
+    const Point at{0.4, -0.2, 0.1};
+    const Direction normal = normalized({0.1, 0.3, 1});
+    const Ring ring{{0, 0, 2}, {0, 0, -1}, 0, 0.5};
+    const Cone cone{{{-0.5, 0, 2}, {0.5, 0.2, 1.8}}, {0.3, 0.2}};
+    const Direction axis = normalized(cone.ends[1] - cone.ends[0]), start = normalized(cross(axis, {0, 0, 1}));
+    double of_rings = 0, of_cones = 0;
+    for (const double sweep : {2.5, 2 * pi - 2.5}) {
+        Ring part = ring;
+        part.sector = {sweep == 2.5 ? Direction{1, 0, 0} : Direction{std::cos(2.5), -std::sin(2.5), 0}, sweep};
+        const LocalSource lamp(RingEmitter{part}, light);
+        of_rings += sampled_irradiance(lamp, at, normal);
+        EXPECT_FALSE(lamp.projected_solid_angle_sr(at, normal)) << "no closed form";
+        Cone half = cone;
+        half.sector = {sweep == 2.5 ? start : start * std::cos(2.5) + cross(axis, start) * std::sin(2.5), sweep};
+        of_cones += sampled_irradiance(LocalSource(ConeEmitter{half, false}, light), at, normal);
+    }
+    EXPECT_NEAR(of_rings / disc_irradiance(ring.centre - at, ring.normal, ring.outer_radius, normal), 1, 1e-4);
+    EXPECT_NEAR(of_cones / sampled_irradiance(LocalSource(ConeEmitter{cone, false}, light), at, normal), 1, 1e-3);
+}
+
 TEST(LocalSource, AtTenRadiiTheMiddleTellsTheIrradianceToOnePercent)
 {
     const Material light = Light{Spectrum::grey(1)};

@@ -49,6 +49,7 @@ TEST(MirrorSet, ConcaveOutlinesHolesRingsMeshesAndInstancesAreHitWhereRaysHitThe
     Part part;
     part.name = "part";
     part.add_ring({{0, 0, 1}, normalized({1, 1, 2}), 0.4, 1.2}, mirror, "ring");
+    part.add_ring({{0, 0, 2.2}, {0, 0, 1}, 0, 1.5, {{0, 1, 0}, 4}}, mirror, "part of a disc");
     auto cube = std::make_shared<Mesh>();
     for (int i = 0; i < 8; ++i)
         cube->points.push_back({(i & 1) - 2.5, ((i >> 1) & 1) - 0.5, ((i >> 2) & 1) + 0.5});
@@ -59,7 +60,7 @@ TEST(MirrorSet, ConcaveOutlinesHolesRingsMeshesAndInstancesAreHitWhereRaysHitThe
     scene.root.add_instance({0, compose(Affine::rotate(1, 0.4), Affine::scale({-1, 0.6, 1.3})), {}}, "squeezed");
     validate(scene);
     const MirrorSet set(scene);
-    EXPECT_EQ(set.mirrors().size(), 1u + 1u + 6u);
+    EXPECT_EQ(set.mirrors().size(), 1u + 2u + 6u);
     EXPECT_TRUE(set.unreachable().empty());
     expect_agrees_with_rays(scene, set);
 }
