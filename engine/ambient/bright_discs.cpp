@@ -7,9 +7,9 @@
 namespace lightwell {
 namespace {
 
-/// The brightest pieces that give this share of the reflected light are worth aiming at when they are no more than that
-/// share of the area.
-constexpr double share_of_light = 0.8, most_of_area = 0.2;
+/// The brightest pieces that give this share of the reflected light are worth aiming at when rays that follow the
+/// cosine meet them no more often than that.
+constexpr double share_of_light = 0.8, most_of_visits = 0.1;
 /// A disc seen edge-on or from behind by a little may still show a part: no smaller cosine in a potential.
 constexpr double least_cosine = 0.05;
 
@@ -41,6 +41,7 @@ std::vector<BrightDiscs::Lit> merged(const std::vector<BrightDiscs::Lit>& pieces
         }
         discs[i].radius_m = std::max(discs[i].radius_m, length(piece.centre - discs[i].centre) + piece.radius_m);
         light_W[i] += found_W;
+        discs[i].visits += piece.visits;
     }
     for (std::size_t i = 0; i < discs.size(); ++i)
         discs[i].irradiance = light_W[i] / area_m2(discs[i]);
@@ -53,34 +54,34 @@ BrightDiscs::BrightDiscs(std::vector<Lit> pieces)
 {
     const auto brighter = [](const Lit& a, const Lit& b) { return a.irradiance > b.irradiance; };
     std::sort(pieces.begin(), pieces.end(), brighter);
-    double light = 0, area = 0;
+    double light = 0, visits = 0;
     for (const Lit& piece : pieces) {
-        light += piece.irradiance * area_m2(piece);
-        area += area_m2(piece);
+        light += piece.irradiance * piece.visits;
+        visits += piece.visits;
     }
     constexpr double first_radii = 2, most_radii = 32; // wider discs would aim at what is dark
-    bool too_many = keep_brightest(pieces, light, area);
+    bool too_many = keep_brightest(pieces, light, visits);
     for (double radii = first_radii; too_many && radii <= most_radii; radii *= 2) {
         std::vector<Lit> discs = merged(pieces, radii);
         std::sort(discs.begin(), discs.end(), brighter);
-        too_many = keep_brightest(discs, light, area);
+        too_many = keep_brightest(discs, light, visits);
     }
 }
 
-bool BrightDiscs::keep_brightest(const std::vector<Lit>& pieces, double light, double area)
+bool BrightDiscs::keep_brightest(const std::vector<Lit>& pieces, double light, double visits)
 {
     discs_.clear();
-    double kept_light = 0, kept_area = 0;
+    double kept_light = 0, kept_visits = 0;
     for (const Lit& piece : pieces) {
         if (kept_light >= share_of_light * light || discs_.size() == most_discs)
             break;
-        kept_light += piece.irradiance * area_m2(piece);
-        kept_area += area_m2(piece);
+        kept_light += piece.irradiance * piece.visits;
+        kept_visits += piece.visits;
         discs_.push_back(piece);
     }
     constexpr double least_of_light = 0.5; // when the number of discs ends the list
     const bool too_many = light > 0 && kept_light < least_of_light * light;
-    if (too_many || !(light > 0) || kept_area > most_of_area * area)
+    if (too_many || !(light > 0) || kept_visits > most_of_visits * visits)
         discs_.clear();
     return too_many;
 }

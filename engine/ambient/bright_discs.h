@@ -19,6 +19,7 @@ public:
         Direction normal;
         double radius_m = 0;
         double irradiance = 0; ///< photopic, W/m^2
+        double visits = 0;     ///< of rays that went out by the cosine: how much of what is seen it takes up
     };
     BrightDiscs() = default;
     /// Keeps the brightest pieces when they are few and give most of the light, neighbours taken together if need be;
@@ -41,7 +42,7 @@ public:
 
 private:
     /// @param pieces  brightest first   @return  whether there are too many to have most of the light in few discs
-    bool keep_brightest(const std::vector<Lit>& pieces, double light, double area);
+    bool keep_brightest(const std::vector<Lit>& pieces, double light, double visits);
     std::vector<Lit> discs_;
 };
 

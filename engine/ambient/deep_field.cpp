@@ -19,9 +19,8 @@ constexpr int survey_rays = 32;
 constexpr double covered_share = 0.65;
 /// Candidates looked at together; sites among them are surveyed in parallel.
 constexpr std::size_t first_batch = 64, largest_batch = 1024;
-/// Keeps random numbers of surveys, rays and direct light apart.
-constexpr std::uint64_t survey_salt = 0x73757276, ray_salt = 0x72617973, direct_salt = 0x64697265,
-                        start_salt = 0x73746172, peak_salt = 0x7065616b;
+/// Keeps random numbers of surveys and of looks for peaks apart.
+constexpr std::uint64_t survey_salt = 0x73757276, peak_salt = 0x7065616b;
 
 AmbientSite surveyed(const SurfacePlace& place, std::uint64_t key, const HemisphereRays& rays, double size_m,
                      const DeepSettings& settings)
@@ -43,17 +42,6 @@ AmbientSite surveyed(const SurfacePlace& place, std::uint64_t key, const Hemisph
     site.harmonic_m = std::min(closeness > 0 ? survey_rays / closeness : infinity, open_share * size_m);
     site.reach_m[0] = site.reach_m[1] = settings.reach_share * site.harmonic_m;
     return site;
-}
-
-/// A random place within a site's reach. @return  false when the surface does not go on there
-bool place_around(const AmbientSite& site, const SurfacePlace& centre, const HemisphereRays& rays, PathRandom& random,
-                  SurfacePlace& found)
-{
-    constexpr double lift_share = 0.1; // of the reach: as far as a site answers off its plane
-    const Frame frame = frame_about(site.normal);
-    const DiscPoint disc = uniform_disc(random.pair());
-    const Vec3 offset = (frame.x * disc.x + frame.y * disc.y) * site.reach_m[0];
-    return rays.beside(centre, offset, lift_share * site.reach_m[0], found);
 }
 
 /// Makes a site's reach smaller where lamps light it as unevenly as nothing else: the light that comes back from
@@ -128,6 +116,16 @@ void make_linear(const Direction& normal, const Vec3* ways, std::size_t count, D
 
 } // namespace
 
+bool place_around(const AmbientSite& site, const SurfacePlace& centre, const HemisphereRays& rays, PathRandom& random,
+                  SurfacePlace& found)
+{
+    constexpr double lift_share = 0.1; // of the reach: as far as a site answers off its plane
+    const Frame frame = frame_about(site.normal);
+    const DiscPoint disc = uniform_disc(random.pair());
+    const Vec3 offset = (frame.x * disc.x + frame.y * disc.y) * site.reach_m[0];
+    return rays.beside(centre, offset, lift_share * site.reach_m[0], found);
+}
+
 void look_around(AmbientSite& site, const SurfacePlace& place, const HemisphereRays& rays)
 {
     constexpr int rays_a_sector = 2;
@@ -200,6 +198,7 @@ void DeepField::restore(DeepSolution&& solution)
     sites_ = std::move(solution.sites);
     ambient_ = std::move(solution.ambient);
     direct_ = std::move(solution.direct);
+    visits_ = std::move(solution.visits);
     tested_share_ = std::move(solution.tested_share);
     lit_W_per_m2_ = std::move(solution.lit_W_per_m2);
     places_.clear();
@@ -211,7 +210,8 @@ void DeepField::find_bright()
 {
     std::vector<BrightDiscs::Lit> lit;
     for (std::size_t i = 0; i < sites_.size(); ++i)
-        lit.push_back({sites_[i].position, sites_[i].normal, covered_share * sites_[i].reach_m[0], lit_W_per_m2_[i]});
+        lit.push_back(
+            {sites_[i].position, sites_[i].normal, covered_share * sites_[i].reach_m[0], lit_W_per_m2_[i], visits_[i]});
     bright_ = BrightDiscs(std::move(lit));
 }
 
@@ -228,94 +228,6 @@ std::size_t DeepField::weights(const Point& at, const Direction& normal, Weight*
     });
     make_linear(normal, ways, count, found);
     return count;
-}
-
-std::vector<DeepField::Start> DeepField::starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
-                                                std::uint64_t seed) const
-{
-    const AmbientSite& s = sites_[site];
-    std::vector<Start> found;
-    double total = 0;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        PathRandom random(mix_bits(seed, start_salt), site, n);
-        SurfacePlace there;
-        if (!place_around(s, places_[site], rays, random, there))
-            continue;
-        Weight around[most_weights];
-        const std::size_t sites = weights(there.position, there.normal, around);
-        for (std::size_t k = 0; k < sites; ++k)
-            if (around[k].site == site && around[k].weight > 0) {
-                found.push_back({there, around[k].weight});
-                total += around[k].weight;
-            }
-    }
-    for (Start& start : found)
-        start.weight /= total;
-    if (found.empty())
-        found.push_back({places_[site], 1});
-    return found;
-}
-
-void DeepField::trace_row(std::size_t site, const std::vector<Start>& from, const HemisphereRays& rays,
-                          double other_share, const RowRays& which, FixedPoint& system) const
-{
-    std::vector<Dependence>& row = system.rows[site];
-    std::vector<Dependence> arrived;
-    Spectrum known;
-    double other = 0;
-    for (std::uint32_t n = 0; n < which.count; ++n) {
-        // Each start gets an equal share of the rays, to one.
-        const std::size_t at = n % from.size();
-        const double weight = from[at].weight / static_cast<double>((which.count - at + from.size() - 1) / from.size());
-        PathRandom random(mix_bits(which.seed, which.replicate), site, n);
-        const Direction direction = hemisphere_direction(frame_about(from[at].place.normal), random.pair());
-        arrived.clear();
-        const Arrival arrival = rays.arrive(from[at].place, direction, random, arrived);
-        known += arrival.irradiance * weight;
-        other += arrival.met_lamp ? 0 : weight;
-        for (const Dependence& d : arrived)
-            row.push_back({d.unknown, d.weight * weight});
-    }
-    // How much of the hemisphere shows lamps is known better from the shadow rays than from these.
-    const double scale = other > 0 ? other_share / other : 1;
-    system.known[site] = known * scale;
-    for (Dependence& d : row)
-        d.weight = d.weight * scale;
-    merge_dependences(row);
-}
-
-void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const HemisphereRays& rays,
-                            const DeepSettings& settings, std::vector<double>& other_share)
-{
-    const std::size_t count = sites_.size();
-    direct_.assign(count, {});
-    std::vector<double> unevenness(count);
-    lit_W_per_m2_.assign(count, 0);
-    brightest_.assign(count, 0);
-    tested_share_.clear();
-    parallel_for(count, settings.threads, [&](std::size_t i) {
-        settings.check();
-        double squares = 0;
-        for (std::uint32_t k = 0; k < from[i].size(); ++k) {
-            PathRandom random(mix_bits(settings.seed, direct_salt), i, k);
-            const DirectIrradiance direct = rays.direct(from[i][k].place, random);
-            brightest_[i] = std::max(brightest_[i], photopic(direct.lamps));
-            direct_[i] += direct.lamps * from[i][k].weight;
-            squares += photopic(direct.lamps) * photopic(direct.lamps) * from[i][k].weight;
-            lit_W_per_m2_[i] += photopic(direct.lamps + direct.suns) * from[i][k].weight;
-            other_share[i] -= std::min(1.0, direct.lamp_share) * from[i][k].weight;
-        }
-        const double mean = photopic(direct_[i]);
-        unevenness[i] = std::sqrt(std::max(0.0, squares - mean * mean));
-    });
-    find_bright();
-    double mean = 0;
-    for (const Spectrum& direct : direct_)
-        mean += photopic(direct) / static_cast<double>(count);
-    constexpr double least_tested = 1.0 / 16, tests_per_unevenness = 0.5;
-    for (const double u : unevenness)
-        tested_share_.push_back(mean > 0 ? std::clamp(tests_per_unevenness * u / mean, least_tested, 1.0)
-                                         : least_tested);
 }
 
 bool DeepField::narrow_peaks(const HemisphereRays& rays, const DeepSettings& settings)
@@ -339,17 +251,6 @@ bool DeepField::narrow_peaks(const HemisphereRays& rays, const DeepSettings& set
         tree_.build(sites_);
     }
     return any;
-}
-
-DeepField::RowStarts DeepField::find_starts(const HemisphereRays& rays, const DeepSettings& settings, std::size_t each)
-{
-    RowStarts rows{std::vector<std::vector<Start>>(sites_.size()), std::vector<double>(sites_.size(), 1.0)};
-    parallel_for(sites_.size(), settings.threads, [&](std::size_t i) {
-        settings.check();
-        rows.from[i] = starts(i, rays, each, settings.seed);
-    });
-    find_direct(rows.from, rays, settings, rows.other_share);
-    return rows;
 }
 
 bool DeepField::narrow_steep()
@@ -392,42 +293,6 @@ bool DeepField::narrow_steep()
     steep_tree_.build(steep_);
     tree_.build(sites_);
     return true;
-}
-
-void DeepField::solve_rows(const RowStarts& rows, const HemisphereRays& rays, const DeepSettings& settings,
-                           std::size_t each)
-{
-    const std::size_t count = sites_.size();
-    std::array<FixedPoint, replicates> systems;
-    for (FixedPoint& system : systems) {
-        system.known.resize(count);
-        system.rows.resize(count);
-    }
-    // The rays use the direct light of all sites.
-    parallel_for(count, settings.threads, [&](std::size_t i) {
-        settings.check();
-        for (std::size_t r = 0; r < replicates; ++r)
-            trace_row(i, rows.from[i], rays, rows.other_share[i], {mix_bits(settings.seed, ray_salt), r, each},
-                      systems[r]);
-    });
-    parallel_for(replicates, settings.threads, [&](std::size_t r) { ambient_[r] = solve(systems[r]); });
-}
-
-void DeepField::solve_with(const HemisphereRays& rays, const DeepSettings& settings)
-{
-    constexpr int most_halvings = 2;
-    const auto each = static_cast<std::size_t>(std::max(1, settings.rays / replicates));
-    RowStarts rows = find_starts(rays, settings, each);
-    if (narrow_peaks(rays, settings)) {
-        place_uncovered(rays, settings);
-        rows = find_starts(rays, settings, each);
-    }
-    solve_rows(rows, rays, settings, each);
-    for (int n = 0; n < most_halvings && narrow_steep(); ++n) {
-        place_uncovered(rays, settings);
-        solve_rows(find_starts(rays, settings, each), rays, settings, each);
-    }
-    candidates_ = {};
 }
 
 Spectrum DeepField::sum(const std::vector<Dependence>& dependences, int replicate) const noexcept

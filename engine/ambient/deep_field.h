@@ -15,7 +15,8 @@ namespace lightwell {
 
 struct DeepSettings {
     double reach_share = 0.5; ///< reach of a site over its harmonic mean distance
-    int rays = 64;            ///< a site, shared out among the replicates
+    int rays = 64;            ///< a site at least, shared out among the replicates
+    double work = 1;          ///< rays in the mean of all sites over `rays`: more go where they tell most
     std::size_t most_sites = 4000;
     std::uint64_t seed = 1;
     int threads = 0;
@@ -29,6 +30,7 @@ struct DeepSolution {
     std::vector<Spectrum> direct;                          ///< irradiance, W/m^2
     std::vector<double> tested_share;
     std::vector<double> lit_W_per_m2; ///< photopic irradiance by lamps and suns
+    std::vector<double> visits;       ///< how often paths from where light is wanted met the site
 };
 
 /// Ambient irradiance everywhere, coarsely: all bounces but the first are read from it. Sites spread over the
@@ -45,11 +47,16 @@ public:
     /// @param size_m  of the scene: the reach where nothing is near
     void place(const std::vector<SurfacePlace>& candidates, const HemisphereRays& rays, double size_m,
                const DeepSettings& settings);
-    /// Traces the rays of all sites and solves. No site may be added afterwards.
+    /// Traces the rays of all sites and solves. No site may be added afterwards. With more work than 1 that is a first
+    /// look: it tells which sites' rays differ most, and those that paths meet often and whose rays differ get most of
+    /// a second set of rays.
     void solve_with(const HemisphereRays& rays, const DeepSettings& settings);
 
+    /// Solves again on the same sites, with as much work as the settings say. @pre  solve_with()
+    void refine(const HemisphereRays& rays, const DeepSettings& settings);
+
     /// What solve_with() has found; restore() takes it up in place of place() and solve_with(), with the same bits.
-    DeepSolution solution() const { return {sites_, ambient_, direct_, tested_share_, lit_W_per_m2_}; }
+    DeepSolution solution() const { return {sites_, ambient_, direct_, tested_share_, lit_W_per_m2_, visits_}; }
     void restore(DeepSolution&& solution);
 
     struct Weight {
@@ -84,8 +91,9 @@ private:
         std::vector<std::vector<Start>> from; ///< by site
         std::vector<double> other_share;      ///< of the hemisphere that shows no lamp
     };
-    /// @param each  starts of a site
-    RowStarts find_starts(const HemisphereRays& rays, const DeepSettings& settings, std::size_t each);
+    using RayNumbers = std::vector<std::size_t>; ///< of each site, a replicate
+    /// One start for each of a site's rays.
+    RowStarts find_starts(const HemisphereRays& rays, const DeepSettings& settings, const RayNumbers& each);
     struct RowRays {
         std::uint64_t seed;
         std::size_t replicate, count;
@@ -104,7 +112,14 @@ private:
     /// Halves the sites on which the solution changes so much from one to the next that their mean would put light
     /// where it is not, where they are many. @return  whether it did
     bool narrow_steep();
-    void solve_rows(const RowStarts& rows, const HemisphereRays& rays, const DeepSettings& settings, std::size_t each);
+    void solve_rows(const RowStarts& rows, const HemisphereRays& rays, const DeepSettings& settings,
+                    const RayNumbers& each);
+    /// How much single rays of each site differ in what they bring, from the replicates of a solved system.
+    void find_spread(const std::array<FixedPoint, replicates>& systems, const RayNumbers& each);
+    RayNumbers same_number(const DeepSettings& settings) const;
+    /// As many as the settings say, shared out by visits and spread.
+    RayNumbers shared_out(const DeepSettings& settings) const;
+    void count_visits();
     bool covers(const Point& at, const Direction& normal) const noexcept;
     std::vector<Start> starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
                               std::uint64_t seed) const;
@@ -115,6 +130,8 @@ private:
     std::array<std::vector<Spectrum>, replicates> ambient_;
     std::vector<Spectrum> direct_;
     std::vector<double> tested_share_, lit_W_per_m2_;
+    std::vector<double> visits_;
+    std::vector<double> spread_;    ///< standard deviation of what one ray brings, W/m^2
     std::vector<double> brightest_; ///< photopic irradiance by lamps within each site's reach, W/m^2
     std::vector<SurfacePlace> candidates_;
     std::vector<AmbientSite> steep_; ///< as they were before they were halved
@@ -126,6 +143,10 @@ private:
 
 /// Sends rays along the surface that tell a site's horizon.
 void look_around(AmbientSite& site, const SurfacePlace& place, const HemisphereRays& rays);
+
+/// A random place within a site's reach. @return  false when the surface does not go on there
+bool place_around(const AmbientSite& site, const SurfacePlace& centre, const HemisphereRays& rays, PathRandom& random,
+                  SurfacePlace& found);
 
 /// Where nothing is near, a value holds over this share of the scene's size.
 inline constexpr double open_share = 0.1;

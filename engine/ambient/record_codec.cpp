@@ -146,7 +146,7 @@ std::vector<double> encode_deep(const DeepSolution& deep)
         for (const std::vector<Spectrum>& ambient : deep.ambient)
             put(numbers, ambient[i]);
         put(numbers, deep.direct[i]);
-        numbers.insert(numbers.end(), {deep.tested_share[i], deep.lit_W_per_m2[i]});
+        numbers.insert(numbers.end(), {deep.tested_share[i], deep.lit_W_per_m2[i], deep.visits[i]});
     }
     return numbers;
 }
@@ -165,6 +165,7 @@ std::optional<DeepSolution> decode_deep(std::span<const double> numbers)
         deep.tested_share.push_back(from.finite());
         from.demand(deep.tested_share.back() > 0 && deep.tested_share.back() <= 1);
         deep.lit_W_per_m2.push_back(from.finite());
+        deep.visits.push_back(from.finite());
     }
     return from.sound() ? std::optional(std::move(deep)) : std::nullopt;
 }

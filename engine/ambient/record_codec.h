@@ -11,8 +11,8 @@ namespace lightwell {
 /// Kinds of blocks in a file of kept ambient light.
 inline constexpr std::uint64_t record_block = 1, deep_block = 2;
 /// Numbers that a record and a site of the deep field take. A change of either, or of their order, is another layout.
-inline constexpr std::size_t numbers_in_record = 106, numbers_in_deep_site = 106;
-inline constexpr std::uint64_t record_layout = 2;
+inline constexpr std::size_t numbers_in_record = 106, numbers_in_deep_site = 107;
+inline constexpr std::uint64_t record_layout = 3;
 /// The most records that fit in one block.
 inline constexpr std::size_t most_records_in_block = most_numbers_in_block / numbers_in_record;
 

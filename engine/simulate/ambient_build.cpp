@@ -28,7 +28,7 @@ int power_of_two(double x, int least, int most)
 
 void AmbientEffort::set_deep(double deep_accuracy)
 {
-    deep.rays = power_of_two(24 * usual_accuracy / deep_accuracy, 64, 1024);
+    deep.work = std::clamp(0.4 * usual_accuracy / deep_accuracy, 1.0, 16.0);
     deep.reach_share = std::clamp(0.6 * std::pow(deep_accuracy / usual_accuracy, 0.25), 0.25, 0.6);
     deep_paths = static_cast<std::size_t>(power_of_two(1024 * usual_accuracy / deep_accuracy, 512, 8192));
 }

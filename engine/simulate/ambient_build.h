@@ -39,11 +39,11 @@ public:
     /// A ray that starts at the i-th of `count` pixels or sensors; false: there is none.
     using Start = std::function<bool(std::size_t i, PathRandom& random, Ray& ray)>;
     void build_deep(std::size_t count, const Start& start);
-    /// The same with a deep field as fine as another accuracy would have it, in place of the one before.
-    void rebuild_deep(double deep_accuracy, std::size_t count, const Start& start)
+    /// Solves the deep field again, with so many times the rays of its first look.
+    void refine_deep(double work)
     {
-        effort_.set_deep(deep_accuracy);
-        build_deep(count, start);
+        effort_.deep.work = work;
+        deep_.refine(tracer_, effort_.deep);
     }
     /// One generation of records at these places. @return records added
     std::size_t grow(const std::vector<AmbientCandidate>& candidates);

@@ -177,16 +177,18 @@ private:
     Teller teller_;
 };
 
-/// Sensors meet many places of the deep field, so that a coarse one often serves; where its error shows in the pilot
-/// run it is made finer, by what that error says.
-constexpr double first_deep = 4, last_deep = 0.125; // times the accuracy
-constexpr double coarsest_deep = 0.05;              // coarser ones cost about the same
-constexpr double most_shared = 1, wished_shared = 0.9;
+/// Sensors meet many places of the deep field, so that few rays a site often serve; where its error shows in the pilot
+/// run it gets more, by what that error says.
+constexpr double first_deep = 2;                       // times the accuracy: how far its sites are apart
+constexpr double coarsest_deep = 0.05;                 // coarser ones cost about the same
+constexpr double most_work = 64;                       // times the rays of its first look
+constexpr double most_shared = 1, wished_shared = 0.9; // times the accuracy
 
-double finer_deep(double deep_accuracy, double shared, double accuracy)
+double more_work(double work, double shared, double accuracy)
 {
-    const double excess = wished_shared * accuracy / shared;
-    return std::max(last_deep * accuracy, deep_accuracy * std::clamp(excess * excess, 1.0 / 16, 0.5));
+    constexpr double most_times = 16;
+    const double excess = shared / (wished_shared * accuracy);
+    return std::min(most_work, work * std::clamp(excess * excess, 2.0, most_times));
 }
 
 /// Adds the bias to expect of each value, by plain path tracing at a few sensors.
@@ -224,33 +226,32 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     Techniques techniques = settings.techniques;
     techniques.cache = techniques.cache && receivers.size() >= many_sensors;
     const bool plain = settings.unbiased || !settings.techniques.deep_field;
-    AmbientBuild ambient(*parts_, effort_of(settings), techniques, stop_when_asked(progress),
-                         plain ? "" : settings.ambient_file.file);
     const bool own_field = !plain && !techniques.cache && settings.ambient_file.file.empty();
-    double deep_accuracy = std::min(first_deep * settings.accuracy, coarsest_deep);
+    AmbientEffort effort = effort_of(settings);
+    if (own_field)
+        effort.set_deep(std::min(first_deep * settings.accuracy, coarsest_deep));
+    double work = effort.deep.work;
+    AmbientBuild ambient(*parts_, effort, techniques, stop_when_asked(progress),
+                         plain ? "" : settings.ambient_file.file);
     RayLaps rays;
     RayCounts ambient_rays, fixed_rays;
-    const auto build = [&] {
-        fixed_rays += rays.next();
+    if (!plain) {
         progress.tell("ambient light, grid " + grid.name, 0);
-        if (own_field)
-            ambient.rebuild_deep(deep_accuracy, receivers.size(), from_sensors(receivers));
-        else
-            ambient.build_deep(receivers.size(), from_sensors(receivers));
+        ambient.build_deep(receivers.size(), from_sensors(receivers));
         if (techniques.cache)
             add_records(ambient, receivers, grid.spacing_m);
         ambient_rays += rays.next();
-    };
-    if (!plain)
-        build();
+    }
     const SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed,
                           plain || techniques.cache ? nullptr : &ambient.deep()};
     result.samples = whole_replicates(settings.samples);
     PilotRun pilot(task, settings.threads, progress, grid.name);
     double shared = plain || (!own_field && settings.samples > 0) ? 0 : pilot.shared_error();
-    while (own_field && shared > most_shared * settings.accuracy && deep_accuracy > last_deep * settings.accuracy) {
-        deep_accuracy = finer_deep(deep_accuracy, shared, settings.accuracy);
-        build();
+    while (own_field && shared > most_shared * settings.accuracy && work < most_work) {
+        work = more_work(work, shared, settings.accuracy);
+        fixed_rays += rays.next();
+        ambient.refine_deep(work);
+        ambient_rays += rays.next();
         shared = pilot.shared_error();
     }
     if (settings.samples <= 0)

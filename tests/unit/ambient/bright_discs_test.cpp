@@ -15,7 +15,7 @@ std::vector<BrightDiscs::Lit> lit_floor(int side)
         for (int column = 0; column < side; ++column) {
             const Point centre{width * (column + 0.5), width * (row + 0.5), 0};
             const bool bright = std::fabs(centre.x - 3) < 1 && std::fabs(centre.y - 3) < 1;
-            pieces.push_back({centre, {0, 0, 1}, width / std::sqrt(pi), bright ? 100.0 : 1.0});
+            pieces.push_back({centre, {0, 0, 1}, width / std::sqrt(pi), bright ? 100.0 : 1.0, width * width});
         }
     return pieces;
 }
@@ -46,6 +46,19 @@ TEST(BrightDiscs, AimAtABrightPatchHoweverFineThePiecesThatItFallsInto)
         EXPECT_LE(discs.size(), BrightDiscs::most_discs);
         EXPECT_GT(share_on_the_patch(discs), 0.9);
     }
+}
+
+/// A sunlit yard outside is most of the area and has most of the light, but rays from inside seldom meet it.
+TEST(BrightDiscs, AreChosenByWhatRaysMeetAndNotByArea)
+{
+    std::vector<BrightDiscs::Lit> pieces = lit_floor(40);
+    EXPECT_FALSE(BrightDiscs(pieces).empty());
+    std::vector<BrightDiscs::Lit> yard(4, {{50, 50, 0}, {0, 0, 1}, 20, 100, 0});
+    yard.insert(yard.end(), pieces.begin(), pieces.end());
+    EXPECT_GT(share_on_the_patch(BrightDiscs(yard)), 0.2) << "never met: it counts for nothing";
+    for (std::size_t i = 0; i < 4; ++i)
+        yard[i].visits = 25; // half of all
+    EXPECT_TRUE(BrightDiscs(yard).empty()) << "met all the time: found without aiming";
 }
 
 TEST(BrightDiscs, AreNoneWhereLightIsEvenOrComesFromEverywhere)

@@ -64,6 +64,66 @@ TEST(DeepField, UnevenDirectLightInASphereGivesEvenAmbientLight)
     }
 }
 
+/// Standard deviation, over seeds, of the mean ambient light on a sphere that is lit unevenly.
+double noise_with(double work)
+{
+    RunningStatistics of_seeds;
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        DeepField deep;
+        const SphereRays rays(&deep, 0.5, [](const Point& p) { return 1 + 0.9 * p.z; });
+        DeepSettings settings = settings_for(seed);
+        settings.work = work;
+        deep.place(sphere_places(200), rays, 2, settings);
+        deep.solve_with(rays, settings);
+        RunningStatistics all;
+        for (std::uint32_t i = 0; i < deep.size(); ++i)
+            for (int k = 0; k < replicates; ++k)
+                all.add(deep.ambient(i, k).g);
+        of_seeds.add(all.mean());
+    }
+    return of_seeds.standard_error() * 4;
+}
+
+TEST(DeepField, SixteenTimesTheWorkIsAtMostHalfTheNoise)
+{
+    EXPECT_LT(noise_with(16), noise_with(1) / 2);
+}
+
+/// Counts rays by the half of the sphere that they leave from.
+class CountedRays : public SphereRays {
+public:
+    using SphereRays::SphereRays;
+    Arrival arrive(const SurfacePlace& from, const Direction& direction, PathRandom& random,
+                   std::vector<Dependence>& dependences) const override
+    {
+        ++(from.position.z > 0 ? upper : lower);
+        return SphereRays::arrive(from, direction, random, dependences);
+    }
+    mutable int upper = 0, lower = 0;
+};
+
+/// Both halves have the same light; paths meet the upper one ten times as often.
+TEST(DeepField, MoreWorkGoesToSitesThatPathsMeetMoreOften)
+{
+    std::vector<SurfacePlace> places = sphere_places(400);
+    for (int n = 1; n < 10; ++n)
+        for (const SurfacePlace& place : sphere_places(400))
+            if (place.position.z > 0)
+                places.push_back(place);
+    DeepField deep;
+    const CountedRays rays(&deep, 0.5, [](const Point& p) { return 1 + p.z * p.z; });
+    deep.place(places, rays, 2, settings_for());
+    deep.solve_with(rays, settings_for());
+    const double first_look = static_cast<double>(rays.upper) / rays.lower; // as many rays a site
+    DeepSettings more = settings_for();
+    more.work = 8;
+    const int all = rays.upper + rays.lower;
+    rays.upper = rays.lower = 0;
+    deep.refine(rays, more);
+    EXPECT_GT(rays.upper, 3 * first_look * rays.lower);
+    EXPECT_NEAR(rays.upper + rays.lower, more.work * all, 0.4 * more.work * all);
+}
+
 TEST(DeepField, WeightsSumToOneAndFollowAStraightLine)
 {
     DeepField deep;

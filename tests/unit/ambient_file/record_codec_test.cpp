@@ -48,6 +48,7 @@ DeepSolution some_field()
         deep.direct.push_back({0.1 * i, 0.2, 0.3});
         deep.tested_share.push_back(0.25 * (1 + i));
         deep.lit_W_per_m2.push_back(10.0 * i);
+        deep.visits.push_back(0.5 + i);
     }
     return deep;
 }
@@ -100,6 +101,7 @@ TEST(RecordCodec, DeepFieldsComeBackWithTheSameBits)
     EXPECT_EQ(back->direct, deep.direct);
     EXPECT_EQ(back->tested_share, deep.tested_share);
     EXPECT_EQ(back->lit_W_per_m2, deep.lit_W_per_m2);
+    EXPECT_EQ(back->visits, deep.visits);
     for (std::size_t i = 0; i < deep.sites.size(); ++i)
         expect_same(back->sites[i], deep.sites[i]);
 }
@@ -131,7 +133,7 @@ TEST(RecordCodec, NumbersThatAreNoDeepFieldAreNotTaken)
     EXPECT_FALSE(decode_deep(std::span(sound).first(numbers_in_record - 2)));
     for (const double bad : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
         std::vector<double> numbers = sound;
-        numbers[numbers_in_deep_site - 2] = bad; // how often the first site is tested
+        numbers[numbers_in_deep_site - 3] = bad; // how often the first site is tested
         EXPECT_FALSE(decode_deep(numbers)) << bad;
     }
 }
