@@ -1,5 +1,4 @@
 #include "engine/base/errors.h"
-#include "importers/dxf/colours.h"
 #include "tests/unit/dxf/dxf_text.h"
 
 #include <gtest/gtest.h>
@@ -140,15 +139,6 @@ INSTANTIATE_TEST_SUITE_P(Releases, DxfExtras,
                          testing::Values("extras_r2000", "extras_r2000_binary", "extras_r2007", "extras_r2007_binary",
                                          "extras_r2018", "extras_r2018_binary"),
                          [](const auto& test) { return test.param; });
-
-TEST(DxfReferences, KeepTheColourThatTheDrawingGivesTheirLayers)
-{
-    const Imported imported = import_dxf(folder / "references.dxf", {});
-    const auto key = std::find_if(imported.keys.begin(), imported.keys.end(),
-                                  [](const SurfaceKey& k) { return k.layer == "FLOOR|SLAB"; });
-    ASSERT_NE(key, imported.keys.end());
-    EXPECT_EQ(key->colour, dxf::palette_colour(1)); // 3 in the file that is referred to
-}
 
 TEST(DxfRaised, RulesThatFitNoLayerAreNotedAndHeightsMustBePositive)
 {

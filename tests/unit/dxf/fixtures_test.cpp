@@ -80,6 +80,27 @@ void expect_notes(const Report& report, const json& truth)
     EXPECT_EQ(report.notes().size(), truth["notes"].size()) << text_of(report);
 }
 
+/// Every key on a layer has the colour of the truth.
+void expect_colours(const Imported& imported, const json& truth)
+{
+    if (!truth.contains("colours"))
+        return;
+    for (const auto& [layer, rgb] : truth["colours"].items()) {
+        SCOPED_TRACE(layer);
+        std::size_t found = 0;
+        for (std::size_t i = 0; i < imported.keys.size(); ++i) {
+            const SurfaceKey& key = imported.keys[i];
+            if (key.layer != layer || std::holds_alternative<Inherited>(imported.scene.modifiers[i].what))
+                continue;
+            ++found;
+            ASSERT_TRUE(key.colour);
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                EXPECT_NEAR((*key.colour)[static_cast<int>(channel)], rgb[channel].get<double>(), 1e-12);
+        }
+        EXPECT_GT(found, 0u);
+    }
+}
+
 class DxfFixture : public testing::TestWithParam<std::string> {};
 
 TEST_P(DxfFixture, HoldsTheSurfacesAreasBoundsAndEntitiesOfItsTruthFile)
@@ -91,6 +112,7 @@ TEST_P(DxfFixture, HoldsTheSurfacesAreasBoundsAndEntitiesOfItsTruthFile)
     expect_layers(imported, truth);
     expect_ledger(imported.ledger, truth);
     expect_notes(imported.report, truth);
+    expect_colours(imported, truth);
     const Box box = exact_bounds(imported);
     for (int axis = 0; axis < 3; ++axis) {
         SCOPED_TRACE(axis);
@@ -119,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(All, DxfFixture, testing::ValuesIn(fixture_names()),
 TEST(DxfFixtures, CoverReleases12To2018AsTextAndBinary)
 {
     const std::vector<std::string> names = fixture_names();
-    for (const char* kind : {"entities", "inserts", "plan", "areas", "extras"})
+    for (const char* kind : {"entities", "inserts", "plan", "areas", "extras", "hidden", "references", "styles"})
         for (const char* release : {"_r12", "_r2000", "_r2007", "_r2018"})
             for (const char* ending : {"", "_binary"}) {
                 const std::string name = std::string{kind} + release + ending;
