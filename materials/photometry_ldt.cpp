@@ -85,11 +85,31 @@ Photometry::Opening opening(LdtLines& lines)
     return {height > 0 ? Shape::box : Shape::rectangle, width, std::max(length, metres_per_mm), height};
 }
 
+/// The lamp sets; the first one is taken to be in the luminaire.
+void read_lamps(LdtLines& lines, const std::string& file_name, Photometry& photometry, Report& report)
+{
+    constexpr double large = 1e9, most_sets = 20;
+    const auto sets = static_cast<int>(lines.number("the number of lamp sets", 1, most_sets));
+    for (int set = 0; set < sets; ++set) {
+        lines.number("the number of lamps", -large, large);
+        lines.skip(1, "the type of lamps");
+        const double lumens = lines.number("the flux of lamps", 0, large);
+        lines.skip(2, "colour of lamps");
+        const double watts = lines.number("the watts", 0, large);
+        if (set == 0) {
+            photometry.lamp_lumens = lumens;
+            photometry.watts = watts;
+        }
+    }
+    if (sets > 1)
+        report.add(Finding::assumed, file_name, "several sets of lamps: the first one is in the luminaire");
+}
+
 } // namespace
 
 Photometry parse_eulumdat(std::string_view text, const std::string& file_name, Report& report)
 {
-    constexpr double large = 1e9, most_planes = 721, most_angles = 721, most_sets = 20;
+    constexpr double large = 1e9, most_planes = 721, most_angles = 721;
     LdtLines lines{text, file_name};
     Photometry photometry;
     lines.skip(1, "the company");
@@ -109,20 +129,7 @@ Photometry parse_eulumdat(std::string_view text, const std::string& file_name, R
     lines.skip(2, "flux fraction and light output ratio");
     const double factor = lines.number("the conversion factor", 0, large);
     lines.number("the tilt", -360, 360);
-    const auto sets = static_cast<int>(lines.number("the number of lamp sets", 1, most_sets));
-    for (int set = 0; set < sets; ++set) {
-        lines.number("the number of lamps", -large, large);
-        lines.skip(1, "the type of lamps");
-        const double lumens = lines.number("the flux of lamps", 0, large);
-        lines.skip(2, "colour of lamps");
-        const double watts = lines.number("the watts", 0, large);
-        if (set == 0) {
-            photometry.lamp_lumens = lumens;
-            photometry.watts = watts;
-        }
-    }
-    if (sets > 1)
-        report.add(Finding::assumed, file_name, "several sets of lamps: the first one is in the luminaire");
+    read_lamps(lines, file_name, photometry, report);
     lines.skip(10, "direct ratios");
     std::vector<double> plane_deg;
     for (std::size_t i = 0; i < planes; ++i)

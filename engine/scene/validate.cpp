@@ -122,21 +122,21 @@ void check_sector(const Part& part, const Surface& surface, const Direction& axi
                fmt::format("start of the sector has length {} and {} along the axis, expected 1 and 0", size, along));
 }
 
-void check_surface(const Scene& scene, const Part& part, const Surface& surface, std::size_t prototypes_before)
-{
-    const auto expect = [&](bool good, const std::string& what, double value, const std::string& expected) {
+/// Refuses a number of a surface that is not what it must be.
+struct Expect {
+    const Part& part;
+    const Surface& surface;
+    void operator()(bool good, const std::string& what, double value, const std::string& expected) const
+    {
         if (!good)
             reject(at(part, surface), fmt::format("{} is {}, expected {}", what, value, expected));
-    };
-    if (surface.modifier < void_modifier || surface.modifier >= static_cast<ModifierId>(scene.modifiers.size()))
-        reject(at(part, surface), "its modifier does not exist");
-    switch (surface.shape) {
-    case Shape::polygon: {
-        const Polygon& polygon = part.polygons.at(surface.index);
-        expect(polygon.count >= 3, "number of corners", polygon.count, "at least 3");
-        check_points(part, surface, &part.points.at(polygon.first), polygon.count);
-        break;
     }
+};
+
+void check_round(const Part& part, const Surface& surface)
+{
+    const Expect expect{part, surface};
+    switch (surface.shape) {
     case Shape::sphere:
     case Shape::bubble: {
         const Sphere& sphere = part.spheres.at(surface.index);
@@ -166,6 +166,32 @@ void check_surface(const Scene& scene, const Part& part, const Surface& surface,
         check_sector(part, surface, ring.normal);
         break;
     }
+    default:
+        break;
+    }
+}
+
+void check_surface(const Scene& scene, const Part& part, const Surface& surface, std::size_t prototypes_before)
+{
+    const Expect expect{part, surface};
+    if (surface.modifier < void_modifier || surface.modifier >= static_cast<ModifierId>(scene.modifiers.size()))
+        reject(at(part, surface), "its modifier does not exist");
+    switch (surface.shape) {
+    case Shape::polygon: {
+        const Polygon& polygon = part.polygons.at(surface.index);
+        expect(polygon.count >= 3, "number of corners", polygon.count, "at least 3");
+        check_points(part, surface, &part.points.at(polygon.first), polygon.count);
+        break;
+    }
+    case Shape::sphere:
+    case Shape::bubble:
+    case Shape::cone:
+    case Shape::cup:
+    case Shape::cylinder:
+    case Shape::tube:
+    case Shape::ring:
+        check_round(part, surface);
+        break;
     case Shape::source: {
         const DistantSource& source = part.sources.at(surface.index);
         expect(std::fabs(length(source.to_source) - 1) < 1e-6, "length of the direction", length(source.to_source),

@@ -169,6 +169,7 @@ void ForeignBuilder::build_mesh(std::uint32_t index, const std::vector<Use>& use
     std::vector<const Use*> copies, flattened;
     for (const Use& use : uses)
         (invertible(to_world_[use.node]) ? copies : flattened).push_back(&use);
+    const std::size_t warped_before = faces_.warped();
     std::size_t made = 0;
     if (copies.size() > 1) {
         Part prototype;
@@ -192,6 +193,8 @@ void ForeignBuilder::build_mesh(std::uint32_t index, const std::vector<Use>& use
         return;
     }
     imported_.ledger.made("mesh", layer);
+    if (faces_.warped() > warped_before)
+        imported_.ledger.repaired("mesh", layer, "faces out of plane: cut into triangles");
     materials_used_.insert(mesh.material);
 }
 

@@ -22,6 +22,8 @@ public:
     /// @return number of faces that have an area
     std::size_t add(const ForeignMesh& mesh, const Affine& map, ModifierId modifier, const std::string& name,
                     Part& part);
+    /// Faces that were cut since they were not flat, of all meshes so far.
+    std::size_t warped() const { return warped_; }
     /// Reports what was cut and left out, once for all meshes.
     void write_notes();
 

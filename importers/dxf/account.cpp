@@ -27,8 +27,12 @@ void note_layers_not_plotted(const Drawing& drawing, const std::vector<std::size
 
 } // namespace
 
-void account(const Drawing& drawing, const std::vector<Reason>& outcomes, Imported& imported)
+void account(const Drawing& drawing, const std::vector<Reason>& outcomes, const Repairs& repairs, Imported& imported)
 {
+    for (const auto& [index, what] : repairs) {
+        const Entity& entity = drawing.entities[index];
+        imported.ledger.repaired(drawing.types[entity.type], drawing.layers[entity.layer].name, what);
+    }
     std::vector<std::size_t> made_on(drawing.layers.size(), 0);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         const Reason outcome = outcomes[i];

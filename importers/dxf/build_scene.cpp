@@ -82,8 +82,10 @@ private:
     const ImportOptions& options_;
     Imported& imported_;
     ModifierTable modifiers_;
-    std::vector<double> raised_m_;                            ///< for each layer
-    std::vector<Reason> outcomes_;                            ///< for each entity; nullptr: not part of the model
+    std::vector<double> raised_m_; ///< for each layer
+    std::vector<Reason> outcomes_; ///< for each entity; nullptr: not part of the model
+    Repairs repairs_;
+    const char* repair_ = nullptr;                            ///< of the entity at hand
     std::unordered_map<std::size_t, std::string> attributes_; ///< of inserts, by their entity
     std::map<std::pair<std::uint32_t, bool>, Prototype> prototypes_;
     Shapes shapes_;
@@ -149,7 +151,7 @@ void SceneBuilder::build(bool y_up)
     for (const EntityRange& range : drawing_.paper)
         std::fill_n(outcomes_.begin() + static_cast<std::ptrdiff_t>(range.first), range.count, &paper);
     settle_common_styles(imported_.scene);
-    account(drawing_, outcomes_, imported_);
+    account(drawing_, outcomes_, repairs_, imported_);
     deviations_.report(imported_.report);
     if (imported_.ledger.made_count() == 0)
         imported_.report.add(Finding::ignored, drawing_.file(),
@@ -201,9 +203,12 @@ void SceneBuilder::fill(Target& target, const EntityRange& range)
         reserve(target.part, drawing_, range);
     for (std::size_t i = range.first; i < range.first + range.count; ++i) {
         const Entity& entity = drawing_.entities[i];
+        repair_ = nullptr;
         Reason reason = hidden_reason(drawing_, entity, target.use);
         if (!reason)
             reason = entity.kind == Kind::insert ? add_insert(target, entity, i) : add_entity(target, entity);
+        if (!reason && repair_)
+            repairs_[i] = repair_;
         if (!reason)
             outcomes_[i] = &made;
         else if (outcomes_[i] != &made) // a block can be used both with and without its layer 0
@@ -221,6 +226,8 @@ Reason SceneBuilder::add_entity(Target& target, const Entity& entity)
     if (const Reason reason = add_shapes(drawing_, entity, options, shapes_))
         return reason;
     count_deviations(target, entity);
+    if (shapes_.deviations.split_faces > 0)
+        repair_ = "corners out of plane: cut into triangles";
     add_shapes_to(target, entity);
     return nullptr;
 }
@@ -288,8 +295,10 @@ Reason SceneBuilder::add_insert(Target& target, const Entity& insert, std::size_
     add_symbols_of(target, insert, prototype, frame, name_of_insert(insert, index));
     if (!prototype.has_surfaces && prototype.lights.empty())
         return &empty_block;
-    if (frame.has_zero_scale)
+    if (frame.has_zero_scale) {
+        repair_ = "scale of 0 taken as 1";
         imported_.report.add(Finding::repaired, drawing_.place(insert), "scale of an insert is 0; 1 is used");
+    }
     Instance instance{prototype.index, {}, bindings(target, insert, prototype)};
     const std::string name = name_of_insert(insert, index);
     for (std::uint32_t row = 0; row < frame.rows; ++row)

@@ -318,6 +318,8 @@ void GltfBuilder::load_primitive(int index, std::size_t number, const GltfPose& 
                 open_shells_.insert(primitive.material);
             if (counts) {
                 imported_.ledger.made("mesh", layer);
+                if (read.without_area > 0)
+                    imported_.ledger.repaired("mesh", layer, "triangles without area left out");
                 made_on_[number] = layer;
             }
             parts.push_back({&primitive, std::make_shared<Mesh>(std::move(read.mesh)), number});

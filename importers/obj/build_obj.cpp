@@ -72,6 +72,8 @@ private:
     Outline outline_; ///< of the face at hand; this and the next two are kept to spare allocations
     Triangles triangles_;
     std::vector<std::uint32_t> mesh_points_; ///< number in the mesh by corner of the outline
+    void repaired(ObjTally& tally, const ObjFace& face, const char* what);
+
     ObjTally warped_, crossing_, repeated_, against_;
     double worst_deviation_m_ = 0;
 };
@@ -122,7 +124,7 @@ void ObjBuilder::take_outline(const ObjFace& face)
         outline_.corners.pop_back();
     }
     if (outline_.points.size() < face.count)
-        repeated_.add(face.line);
+        repaired(repeated_, face, "corner that stands twice in a row left out");
     outline_.shape = face_shape(outline_.points);
 }
 
@@ -144,10 +146,16 @@ void ObjBuilder::add_face(const ObjFace& face)
         return;
     }
     if (!has_area)
-        crossing_.add(face.line);
+        repaired(crossing_, face, "outline crosses itself: cut into a fan of triangles");
     else if (!outline_.shape.planar())
-        warped_.add(face.line);
+        repaired(warped_, face, "corners out of plane: cut into triangles");
     worst_deviation_m_ = std::fmax(worst_deviation_m_, outline_.shape.deviation_m);
+}
+
+void ObjBuilder::repaired(ObjTally& tally, const ObjFace& face, const char* what)
+{
+    tally.add(face.line);
+    imported_.ledger.repaired("face", layer_of(file_.states[face.state]), what);
 }
 
 /// True when the corner normals say something that the plane of the face does not.
@@ -167,7 +175,7 @@ bool ObjBuilder::smooth(const ObjFace& face)
     }
     const bool flat = spread <= same_normal && std::fmin(from_front, from_back) <= face_normal_tolerance;
     if (flat && from_back < from_front)
-        against_.add(face.line);
+        repaired(against_, face, "normals against the order of the corners left out");
     return !flat && !outline_.corners.empty();
 }
 

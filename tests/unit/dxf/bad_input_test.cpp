@@ -141,6 +141,9 @@ TEST(DxfBadInput, DegenerateEntitiesAreSkippedWithAReasonAndAScaleOfZeroIsOne)
     EXPECT_EQ(imported.ledger.made_count(), 2u); // the insert and the face in its block
     EXPECT_EQ(imported.ledger.read_count(), 10u);
     EXPECT_TRUE(imported.report.has(Finding::repaired));
+    ASSERT_EQ(imported.ledger.repaired_list().size(), 1u);
+    EXPECT_EQ(imported.ledger.repaired_list()[0].type, "INSERT");
+    EXPECT_EQ(imported.ledger.repaired_list()[0].what, "scale of 0 taken as 1");
     EXPECT_NEAR(layer_areas(imported).at("A-WALL").area_m2, 12, 1e-12);
     EXPECT_NO_THROW(validate(imported.scene));
 }

@@ -66,6 +66,15 @@ void expect_ledger(const Ledger& ledger, const json& truth)
         expected[line["type"].get<std::string>() + " | " + line["layer"].get<std::string>() + " | " +
                  line["reason"].get<std::string>()] += line["count"].get<std::size_t>();
     EXPECT_EQ(found, expected);
+    found.clear();
+    expected.clear();
+    for (const Ledger::Repaired& line : ledger.repaired_list())
+        found[line.type + " | " + line.layer + " | " + line.what] += line.count;
+    if (truth.contains("repaired"))
+        for (const json& line : truth["repaired"])
+            expected[line["type"].get<std::string>() + " | " + line["layer"].get<std::string>() + " | " +
+                     line["what"].get<std::string>()] += line["count"].get<std::size_t>();
+    EXPECT_EQ(found, expected);
 }
 
 void expect_notes(const Report& report, const json& truth)

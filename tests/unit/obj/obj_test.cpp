@@ -169,6 +169,10 @@ TEST(Obj, WarpedFacesAreCutInsideTheirOutlineAndTheDeviationIsNoted)
                 0, 1e-12);
     EXPECT_NEAR(found.layers.at("arrow").area_m2, truth["arrow_area_m2"].get<double>(), 1e-12);
     EXPECT_EQ(noted(warped.report, "corners do not lie in one plane"), 2u);
+    std::size_t repaired = 0;
+    for (const Ledger::Repaired& entry : warped.ledger.repaired_list())
+        repaired += entry.type == "face" && entry.what == "corners out of plane: cut into triangles" ? entry.count : 0;
+    EXPECT_EQ(repaired, 2u);
 }
 
 TEST(Obj, DamagedFacesAreLeftOutForANamedReasonAndTheRestIsKept)
