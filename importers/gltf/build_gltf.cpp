@@ -79,7 +79,7 @@ private:
     std::map<int, std::vector<Use>> uses_; ///< by mesh
     std::string first_fault_;
     std::size_t bytes_ = 0, readings_ = 0;
-    std::size_t without_area_ = 0, skinned_ = 0, unskinned_ = 0, morphed_ = 0, coloured_ = 0;
+    std::size_t without_area_ = 0, skinned_ = 0, unskinned_ = 0, morphed_ = 0;
 };
 
 /// True for a material that is a transparent body when its mesh encloses one.
@@ -312,7 +312,6 @@ void GltfBuilder::load_primitive(int index, std::size_t number, const GltfPose& 
         GltfTriangles read = read_triangles(document_, primitive, pose);
         without_area_ += counts ? read.without_area : 0;
         morphed_ += counts && !primitive.targets.empty() ? 1 : 0;
-        coloured_ += counts && primitive.attributes.count("COLOR_0") > 0 ? 1 : 0;
         if (!read.mesh.triangles.empty()) {
             if (wants_inside(document_, primitive.material) && !is_closed(read.mesh))
                 open_shells_.insert(primitive.material);
@@ -460,7 +459,6 @@ void GltfBuilder::write_notes()
     note(skinned_, Finding::approximated, "skin: the mesh stands as its bones do at rest");
     note(unskinned_, Finding::unsupported, "skin without usable bones: the mesh is kept as modelled");
     note(morphed_, Finding::approximated, "morph targets: the primitive is shaped by the weights at rest");
-    note(coloured_, Finding::unsupported, "vertex colours (COLOR_0): the base colour of the material is used");
     note(document_.animations, Finding::ignored, "animation: the scene is kept as it stands");
     std::size_t unused = 0;
     for (std::size_t i = 0; i < document_.meshes.size(); ++i)

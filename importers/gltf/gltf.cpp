@@ -3,6 +3,7 @@
 #include "importers/gltf/build_gltf.h"
 #include "importers/gltf/gltf_document.h"
 #include "importers/gltf/gltf_material.h"
+#include "importers/gltf/gltf_vertex_colours.h"
 #include "importers/importer.h"
 #include "importers/units.h"
 
@@ -101,7 +102,8 @@ bool recognize_gltf(const std::filesystem::path& file)
 Imported import_gltf(const std::filesystem::path& file, const ImportOptions& options)
 {
     Imported imported;
-    const GltfDocument document = read_gltf(file, imported.report);
+    GltfDocument document = read_gltf(file, imported.report);
+    take_vertex_colours(document, imported.report);
     note_required_extensions(document, imported.report);
     note_variants(document, imported.report);
     const MetresPerUnit unit = unit_of(document, options, imported);

@@ -231,6 +231,41 @@ GltfTriangles read_triangles(const GltfDocument& document, const GltfPrimitive& 
     return result;
 }
 
+std::optional<Spectrum> mean_vertex_colour(const GltfDocument& document, const GltfPrimitive& primitive)
+{
+    constexpr int triangle_mode = 4;
+    if (primitive.mode >= 0 && primitive.mode < triangle_mode)
+        return {};
+    Source source = from_accessors(document, primitive);
+    const int accessor = primitive.attributes.at("COLOR_0");
+    const std::vector<double> colours = read_numbers(document, accessor, 0);
+    const std::size_t count = source.points.size(), width = count > 0 ? colours.size() / count : 0;
+    if (count > 0 && width != 3 && width != 4)
+        check_count(document, "COLOR_0", accessor, colours.size() / 3, count);
+    const auto colour_of = [&](std::uint32_t corner) {
+        const double* rgb = &colours[width * corner];
+        return Spectrum{rgb[0], rgb[1], rgb[2]};
+    };
+    source.corners = unrolled(std::move(source.corners), primitive.mode);
+    Spectrum sum;
+    double whole = 0;
+    for (std::size_t i = 0; i + 2 < source.corners.size(); i += 3) {
+        const std::uint32_t *c = &source.corners[i], last = std::max({c[0], c[1], c[2]});
+        if (last >= count)
+            return {}; // refused where the triangles are made
+        const Point& a = source.points[c[0]];
+        const double area = length(cross(source.points[c[1]] - a, source.points[c[2]] - a)) / 2;
+        if (!std::isfinite(area))
+            return {};
+        whole += area;
+        sum += (colour_of(c[0]) + colour_of(c[1]) + colour_of(c[2])) * (area / 3);
+    }
+    const Spectrum mean = sum / whole;
+    if (!(whole > 0) || !std::isfinite(mean.r) || !std::isfinite(mean.g) || !std::isfinite(mean.b))
+        return {};
+    return mean;
+}
+
 bool is_closed(const Mesh& mesh)
 {
     // Corners of one place are one corner, however many normals or texture coordinates they have there.

@@ -158,6 +158,29 @@ TEST(GltfLooks, PicturesCountWithTheirMeansWhereverTheyAreKept)
     EXPECT_EQ(imported.file_textures[2].file.filename(), "holes.png");
 }
 
+TEST(GltfLooks, VertexColoursMultiplyTheBaseColourWithTheirMeanOverTheArea)
+{
+    const Imported imported = import_gltf(fixtures / "colours.gltf", {});
+    const Json truth = truth_of("colours");
+    constexpr double eight_bits = 6e-3; // a step of sRGB, in linear light
+    std::size_t met = 0;
+    for (const SurfaceKey& key : imported.keys) {
+        if (!truth["base_colours"].contains(key.layer))
+            continue;
+        ++met;
+        SCOPED_TRACE(key.layer + ": " + key.material);
+        const auto named = std::find_if(imported.file_materials.begin(), imported.file_materials.end(),
+                                        [&](const auto& own) { return own.first == key.material; });
+        ASSERT_NE(named, imported.file_materials.end());
+        const Json& expected = truth["base_colours"][key.layer];
+        ASSERT_TRUE(key.colour);
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR((*key.colour)[channel], expected[static_cast<std::size_t>(channel)].get<double>(), eight_bits);
+    }
+    EXPECT_EQ(met, 4u);
+    EXPECT_EQ(noted(imported.report, "vertex colours: their mean"), truth["notes"].get<std::size_t>());
+}
+
 TEST(GltfLooks, CutOutAndBlendedSurfacesCoverTheirShare)
 {
     const Imported imported = import_gltf(fixtures / "looks.glb", {});
