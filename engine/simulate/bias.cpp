@@ -13,6 +13,8 @@ constexpr double least_level = 0.01;
 constexpr int first_paths = 16 * replicates;
 /// The most paths that the check takes, as a share of all: each is longer than those of the values.
 constexpr double check_share = 1.0 / 16;
+/// Of a plain path, shadow rays included, in a room: few sensors may rest on much more ambient light than paths.
+constexpr double rays_a_path = 16;
 
 /// The part of a mean that is not likely to be noise.
 /// Source  James, Stein 1961, the positive part
@@ -40,13 +42,15 @@ BiasEstimate bias_of(const std::vector<Checked>& points)
     if (!(level > 0))
         return bias;
     bias.mean = sum / level;
-    bias.standard_error = std::sqrt(std::max(squares - sum * sum / n, 0.0)) / level;
+    // Few points may agree by chance, and one always does: the sum is no surer than the plain paths are.
+    bias.standard_error = std::sqrt(std::max(squares - sum * sum / n, noise)) / level;
     bias.spread = std::sqrt(std::max(squares - noise, 0.0) / n) / (level / n);
     return bias;
 }
 
-BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, double all_paths)
+BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, const AllWork& all)
 {
+    const double all_paths = std::max(all.paths, static_cast<double>(all.rays.total()) / rays_a_path);
     BiasCheck check;
     for (int paths = first_paths;; paths *= 4) {
         check.points = measure(paths);

@@ -204,7 +204,7 @@ void add_bias(GridResult& result, const SensorTask& plain, int threads, Teller& 
         return points;
     };
     const double all_paths = static_cast<double>(result.samples) * static_cast<double>(plain.places.size());
-    const BiasCheck check = check_bias(measure, result.median_relative_error, all_paths);
+    const BiasCheck check = check_bias(measure, result.median_relative_error, {all_paths, result.work.rays()});
     result.bias = check.whole;
     const LocalBias local(check.whole, check.points);
     for (std::size_t i = 0; i < plain.places.size(); ++i)
@@ -259,7 +259,10 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     fixed_rays += rays.next();
     Teller teller(progress, "grid " + grid.name, receivers.size());
     const Some all = measure_some(task, result.samples, 1, settings.threads, teller);
-    const RayCounts value_rays = rays.next();
+    result.work = ambient.work();
+    result.work.ambient_rays = ambient_rays;
+    result.work.fixed_rays = fixed_rays;
+    result.work.value_rays = rays.next();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         result.values.push_back(Illuminance{all.values[i]});
         result.standard_errors.push_back(Illuminance{all.errors[i]});
@@ -270,11 +273,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         Teller check(progress, "check, grid " + grid.name, checked_sensors);
         add_bias(result, {parts_->tracer, receivers, mix_bits(settings.seed), nullptr}, settings.threads, check);
     }
-    fixed_rays += rays.next();
-    result.work = ambient.work();
-    result.work.ambient_rays = ambient_rays;
-    result.work.fixed_rays = fixed_rays;
-    result.work.value_rays = value_rays;
+    result.work.fixed_rays += rays.next();
     result.report = ambient.report();
     result.seconds = seconds_since(start);
     return result;

@@ -106,10 +106,15 @@ struct BiasCheck {
     std::vector<Checked> points;
     BiasEstimate whole;
 };
+/// What a result took before it was checked.
+struct AllWork {
+    double paths = 0; ///< of the values
+    RayCounts rays;   ///< of all stages
+};
 /// Four times the paths, from 16 in each replicate, until the mean bias is known as well as `wanted` (relative), or
-/// until the next step would take more than a share of all the paths of the values.
+/// until the next step would take more than a share of all the work.
 /// @param  measure  the checked values, each by so many plain paths
-BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, double all_paths);
+BiasCheck check_bias(const std::function<std::vector<Checked>(int paths)>& measure, double wanted, const AllWork& all);
 
 /// The bias to expect of each value: the mean one, and what the checked values nearby show beyond it, both less the
 /// part that noise of the check explains. 0 where the check cannot tell a bias from noise.

@@ -213,7 +213,7 @@ void add_bias(PictureResult& result, const PixelTask& plain, const Tile& wanted,
         return points;
     };
     const double all_paths = static_cast<double>(result.samples) * picture.width * picture.height;
-    const BiasCheck check = check_bias(measure, result.median_relative_error, all_paths);
+    const BiasCheck check = check_bias(measure, result.median_relative_error, {all_paths, {}});
     result.bias = check.whole;
     const LocalBias local(check.whole, check.points);
     std::vector<float>& channel = picture.add_channel("bias.Y");

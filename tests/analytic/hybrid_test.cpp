@@ -120,6 +120,16 @@ TEST(HybridBias, EachSensorHasItsOwnAndPlainPathsHaveNone)
     EXPECT_TRUE(sphere.illuminance(sphere_sensors(16), settings).biases.empty());
 }
 
+/// One point agrees with itself: what is stated is the noise of its plain paths.
+TEST(HybridBias, OneSensorsBiasIsNoSurerThanThePathsThatCheckedIt)
+{
+    const Simulation sphere = lit_sphere(0.8, 0.05);
+    const GridResult one = sphere.illuminance(sphere_sensors(1), asked(0.05, 64));
+    ASSERT_EQ(one.bias.points, 1);
+    EXPECT_GT(one.bias.standard_error, 0.001);
+    EXPECT_LT(std::fabs(one.bias.mean), 5 * one.bias.standard_error) << "the field of a sphere has none";
+}
+
 /// Isotropic lamp of 10,000 lm in the middle of a cube of 4 m, all faces of one reflectance.
 /// Source  radiosity with exact point-to-polygon factors on three meshes, and a random walk; uncertainty 0.03 %
 TEST(HybridBox, ACubeIsThatOfTheRadiositySolution)
