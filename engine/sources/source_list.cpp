@@ -38,11 +38,29 @@ FlatEmitter flat_emitter(const std::vector<Point>& corners, const std::vector<st
     return emitter;
 }
 
+/// The same outline without corners that lie in the middle of a straight edge: drawings have many, and without them a
+/// lamp may be a rectangle or have few enough triangles for a closed form.
+std::vector<Point> turning_corners(const std::vector<Point>& corners)
+{
+    constexpr double straight = 1e-12; // sine of the turn
+    std::vector<Point> kept;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec3 before = corners[i] - (kept.empty() ? corners.back() : kept.back());
+        const Vec3 after = corners[(i + 1) % corners.size()] - corners[i];
+        const double both = length(before) * length(after);
+        const bool goes_on = dot(before, after) >= 0 && length(cross(before, after)) <= straight * both;
+        if (!goes_on)
+            kept.push_back(corners[i]);
+    }
+    return kept.size() < 3 ? corners : kept;
+}
+
 FlatEmitter polygon_emitter(const Part& part, const Polygon& polygon, const Affine& to_world)
 {
     std::vector<Point> corners;
     for (std::uint32_t i = 0; i < polygon.count; ++i)
         corners.push_back(to_world.point(part.points[polygon.first + i]));
+    corners = turning_corners(corners);
     const bool mirrored = to_world.determinant() < 0;
     if (is_rectangle(corners)) {
         FlatEmitter emitter;

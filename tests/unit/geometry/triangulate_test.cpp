@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 
 namespace lightwell {
 namespace {
@@ -56,6 +57,30 @@ TEST(Triangulate, ConcaveOutlinesAreCoveredOnceWithTheFrontKept)
         EXPECT_NEAR(covered_area(comb(teeth)), area, relative_rounding * area);
         EXPECT_GT(least_front(comb(teeth)), 0);
     }
+}
+
+Outline regular(int corners)
+{
+    Outline outline;
+    for (int i = 0; i < corners; ++i)
+        outline.push_back({std::cos(2 * pi * i / corners), std::sin(2 * pi * i / corners), 0});
+    return outline;
+}
+
+/// Asking every corner about every ear takes 20 s and more for each of the two.
+TEST(Triangulate, AHundredThousandCornersTakeSeconds)
+{
+    constexpr int teeth = 25000, corners = 100000;
+    constexpr double most_seconds = 10, rounding_of_the_sum = 1e-9;
+    const std::clock_t begin = std::clock();
+    EXPECT_NEAR(covered_area(comb(teeth)) / (11. * teeth - 1), 1, rounding_of_the_sum);
+    EXPECT_NEAR(covered_area(regular(corners)) / (0.5 * corners * std::sin(2 * pi / corners)), 1, rounding_of_the_sum);
+    const Outline round = regular(corners);
+    Outline star; // of as many points, which crosses itself everywhere
+    for (std::size_t i = 0; i < round.size(); ++i)
+        star.push_back(round[i * 49999 % round.size()]);
+    EXPECT_GT(covered_area(star), 0);
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, most_seconds);
 }
 
 TEST(Triangulate, AFrameWithASeamLeavesItsHoleOpen)
