@@ -23,7 +23,7 @@ struct ValidateOptions {
 };
 
 constexpr const char* examples = R"(Examples:
-  lightwell validate                                 under half a minute, tolerances of 1 %
+  lightwell validate                                 one or two minutes, tolerances of 1 %
   lightwell validate --full                          the tolerances of the cases, minutes
   lightwell validate --full --html report            also report/index.html, with plots
   lightwell validate --case cl_sky --json
@@ -121,7 +121,7 @@ void add_validate(CLI::App& app, Status& status)
     command.add_flag("--json", options->json, "for programs, on standard output");
     command
         .add_option("--perturb", options->perturb,
-                    "self-test: 2 % of error in direct, sky, glass or interreflection; rows must fail")
+                    "self-test: 2 % of error in direct, specular, ambient, sky or glass; rows must fail")
         ->type_name("NAME");
     command.footer(examples);
     command.callback([options, &status] { status = validate(*options, std::cout); });

@@ -10,7 +10,7 @@ namespace lightwell {
 
 /// The factors of a deliberate error, for the test of the tests: 1 everywhere in an honest run.
 struct Perturbation {
-    double direct = 1, sky = 1, glass = 1, interreflection = 1;
+    double direct = 1, sky = 1, glass = 1, interreflection = 1, specular = 1;
 
     /// Lamp or sun of this luminance, cd/m^2.
     Light lamp(double luminance) const { return {Spectrum::grey(luminance * direct / lumens_per_watt)}; }
@@ -26,6 +26,7 @@ struct Perturbation {
         const double changed = interreflection * rho / (1 - rest * rho);
         return changed / (1 + rest * changed);
     }
+    Mirror mirror(double reflectance) const { return {Spectrum::grey(reflectance * specular)}; }
     Plastic diffuse(double rho, double rest) const { return {Spectrum::grey(reflectance(rho, rest)), 0, 0}; }
 };
 
@@ -34,7 +35,14 @@ struct WeightedSensor {
     double weight = 1;
 };
 
+/// How a check is measured.
+enum class Method {
+    plain, ///< path tracing, free of bias
+    usual  ///< the engine as it is used, with ambient light kept in between: where paths are long
+};
+
 /// A quantity that the engine has to find: a weighted sum of illuminances, or the luminance in the middle of a view.
+/// With `each`, as many quantities as sensors: the row shows the one that comes closest to its tolerance.
 struct Check {
     std::string quantity;
     double expected = 0;
@@ -45,6 +53,11 @@ struct Check {
     std::string unit = "lx";
     double quick_relative = 0.01; ///< least relative tolerance of a quick look
     bool only_full = false;       ///< too slow for a quick look
+    bool exact = false;           ///< a view in which nothing is left to chance
+    Method method = Method::plain;
+    double tolerance_part = 0; ///< with `each`: relative tolerance of each, beside `tolerance`
+    std::vector<double> each = {};
+    std::vector<std::string> names = {}; ///< of the sensors, with `each`
 };
 
 /// One scene and what is measured in it.
@@ -63,6 +76,9 @@ struct Case {
     std::vector<Setup> setups = {};
     std::vector<std::pair<std::string, double>> references = {}; ///< key, value; the checks' own when empty
     Count count = {};
+    /// Its setups and references where they take a while to find: called when they are needed.
+    std::function<Case()> later = {};
+    bool only_full = false; ///< the whole case
 };
 
 // One list each; validation.cpp puts them together.
@@ -76,6 +92,11 @@ std::vector<Case> furnace_cases();
 std::vector<Case> interreflection_cases();
 std::vector<Case> mirror_cases();
 std::vector<Case> leak_cases();
+std::vector<Case> detection_cases();
+std::vector<Case> electric_cases();
+std::vector<Case> daylight_cases();
+std::vector<Case> sky_model_cases();
+std::vector<Case> radiosity_cases();
 
 /// A check of one illuminance with a relative tolerance.
 inline Check illuminance_check(std::string quantity, double expected, double relative, const Sensor& sensor)

@@ -43,14 +43,16 @@ Setup view_ray(double transmissivity, double normal_transmittance, double degree
 {
     const double angle = degrees * radians_per_degree;
     const std::string name = numbered("T", normal_transmittance) + numbered(" picture at ", degrees);
+    Check check = luminance_check(name, luminance * pane_transmittance(transmissivity, index, angle), accepted,
+                                  {0, 0, 0}, {std::sin(angle), 0, std::cos(angle)});
+    check.exact = true; // the mirrored and the passing part are both followed
     return {[=](const Perturbation& p) {
                 Scene scene;
                 scene.root.add_source({{0, 0, 1}, 180}, scene.add_material("glow", p.surroundings(luminance)), "sky");
                 add_pane(scene, p.pane(transmissivity, index));
                 return scene;
             },
-            {luminance_check(name, luminance * pane_transmittance(transmissivity, index, angle), accepted, {0, 0, 0},
-                             {std::sin(angle), 0, std::cos(angle)})}};
+            {check}};
 }
 
 } // namespace

@@ -35,6 +35,8 @@ Case sphere_case(const std::string& id, double radius, double reflectance, const
         constexpr double short_paths = 0.5, long_paths = 0.95, mostly_reflected = 0.8;
         check.only_full = reflectance > short_paths && number != 0;
         check.quick_relative = reflectance > long_paths ? 0.02 : 0.01;
+        if (reflectance > short_paths)
+            check.method = Method::usual;
         const bool telling = number == 0 && reflectance < long_paths && indirect > mostly_reflected * expected;
         setup.checks.push_back(telling ? detecting(check) : check);
         ++number;
@@ -70,7 +72,11 @@ Case planes_case(const std::string& id, double reflectance1, double reflectance2
     constexpr double lets_much_in = 0.5;
     if (passed >= lets_much_in)
         setup.checks[1] = detecting(setup.checks[1]); // all of it has been reflected
-    Case result{id, Technique::sky | Technique::interreflection, {setup}};
+    // Paths of a hundred reflections take minutes: each place is a task of its own.
+    Setup other = setup;
+    other.checks.erase(other.checks.begin());
+    setup.checks.pop_back();
+    Case result{id, Technique::sky | Technique::interreflection, {setup, other}};
     result.references = {{"E_on_2", e.on_second},
                          {"E_on_1", e.on_first},
                          {"radiosity_1", exitance + reflectance1 * e.on_first},

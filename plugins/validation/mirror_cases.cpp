@@ -22,7 +22,7 @@ Case plane_case()
     setup.scene = [=](const Perturbation& p) {
         Scene scene;
         scene.root.add_polygon({{0, -wide, -wide}, {0, wide, -wide}, {0, wide, wide}, {0, -wide, wide}},
-                               scene.add_material("mirror", Mirror{Spectrum::grey(reflectance)}), "mirror");
+                               scene.add_material("mirror", p.mirror(reflectance)), "mirror");
         scene.root.add_sphere({lamp, radius}, Shape::sphere,
                               scene.add_material("lamp", p.lamp(intensity / (pi * radius * radius))), "lamp");
         return scene;
@@ -71,7 +71,7 @@ Case finite_case()
     setup.scene = [=](const Perturbation& p) {
         Scene scene;
         scene.root.add_polygon(lamp, scene.add_material("lamp", p.lamp(luminance)), "lamp");
-        scene.root.add_polygon(mirror, scene.add_material("mirror", Mirror{Spectrum::grey(reflectance)}), "mirror");
+        scene.root.add_polygon(mirror, scene.add_material("mirror", p.mirror(reflectance)), "mirror");
         return scene;
     };
     const std::vector<Sensor> sensors{{{1.5, 0, 0}, {0, 0, 1}},
@@ -128,7 +128,7 @@ Case parallel_case()
     setup.preparation.virtual_depth = 12;
     setup.scene = [=](const Perturbation& p) {
         Scene scene;
-        const ModifierId mirror = scene.add_material("mirror", Mirror{Spectrum::grey(ParallelMirrors::reflectance)});
+        const ModifierId mirror = scene.add_material("mirror", p.mirror(ParallelMirrors::reflectance));
         for (const double x : {0.0, ParallelMirrors::gap})
             scene.root.add_polygon({{x, -wide, -wide}, {x, wide, -wide}, {x, wide, wide}, {x, -wide, wide}}, mirror,
                                    "mirror");

@@ -13,7 +13,7 @@
 namespace lightwell {
 namespace {
 
-/// Of the deliberate error; glass becomes darker, since clear glass cannot become clearer.
+/// Of the deliberate error; glass and mirrors become darker, since a clear one cannot become clearer.
 constexpr double perturbation = 1.02;
 
 constexpr std::pair<Technique, const char*> names[] = {{Technique::direct, "direct"},
@@ -25,7 +25,8 @@ constexpr std::pair<Technique, const char*> names[] = {{Technique::direct, "dire
 std::vector<Case> all_cases()
 {
     std::vector<Case> all;
-    for (auto list : {lamp_cases, form_factor_cases, sun_cases, sky_cases, glass_cases, dielectric_cases, furnace_cases,
+    for (auto list : {detection_cases, electric_cases, daylight_cases, sky_model_cases, radiosity_cases, lamp_cases,
+                      form_factor_cases, sun_cases, sky_cases, glass_cases, dielectric_cases, furnace_cases,
                       mirror_cases, interreflection_cases, leak_cases}) {
         std::vector<Case> some = list();
         std::move(some.begin(), some.end(), std::back_inserter(all));
@@ -44,27 +45,45 @@ Perturbation perturbation_of(const std::optional<Technique>& technique)
         p.glass = 1 / perturbation;
     else if (technique == Technique::interreflection)
         p.interreflection = perturbation;
+    else if (technique == Technique::specular)
+        p.specular = 1 / perturbation;
     return p;
 }
 
 /// One scene of one case, run independently of the others.
 struct Task {
     const Case* from;
-    const Setup* setup; ///< null: the case counts
+    const Setup* setup; ///< null: the case counts, or its setups come later
     std::vector<ValidationRow> rows;
 };
 
-std::vector<ValidationRow> run(const Task& task, const ValidationOptions& options, const Progress& progress)
+void run_setup(const Setup& setup, const ValidationOptions& options, const Progress& progress,
+               std::vector<ValidationRow>& rows)
 {
-    if (task.setup == nullptr)
-        return {task.from->count(options)};
-    std::vector<ValidationRow> rows;
-    const Simulation simulation(task.setup->scene(perturbation_of(options.perturb)), task.setup->preparation);
-    for (const Check& check : task.setup->checks) {
+    std::vector<const Check*> checks;
+    for (const Check& check : setup.checks)
+        if ((options.full || !check.only_full) && (check.detection || !options.only_detection))
+            checks.push_back(&check);
+    if (checks.empty())
+        return;
+    const Simulation simulation(setup.scene(perturbation_of(options.perturb)), setup.preparation);
+    for (const Check* check : checks) {
         if (progress.stop())
             throw Cancelled{};
-        if ((options.full || !check.only_full) && (check.detection || !options.only_detection))
-            rows.push_back(run_check(simulation, check, options));
+        rows.push_back(run_check(simulation, *check, options));
+    }
+}
+
+std::vector<ValidationRow> run(const Task& task, const ValidationOptions& options, const Progress& progress)
+{
+    std::vector<ValidationRow> rows;
+    if (task.setup != nullptr) {
+        run_setup(*task.setup, options, progress, rows);
+    } else if (task.from->later) {
+        for (const Setup& setup : task.from->later().setups)
+            run_setup(setup, options, progress, rows);
+    } else {
+        rows = {task.from->count(options)};
     }
     return rows;
 }
@@ -131,9 +150,11 @@ std::vector<ValidationRow> validate_engine(const ValidationOptions& options, con
     for (const Case& c : cases) {
         if (c.id.find(options.only) == std::string::npos)
             continue;
+        if (c.only_full && !options.full)
+            continue;
         for (const Setup& setup : c.setups)
             tasks.push_back({&c, &setup, {}});
-        if (c.count && !options.only_detection)
+        if ((c.count || (c.later && (options.full || !c.only_full))) && !options.only_detection)
             tasks.push_back({&c, nullptr, {}});
     }
     if (tasks.empty())
@@ -171,21 +192,29 @@ std::vector<std::string> technique_names(unsigned techniques)
 Technique parse_perturbation(const std::string& name)
 {
     for (const auto& [technique, word] : names)
-        if (name == word && technique != Technique::specular)
+        if (name == word)
             return technique;
-    throw InputError{"--perturb " + name, "is not a technique", "use direct, sky, glass or interreflection"};
+    if (name == "ambient")
+        return Technique::interreflection;
+    throw InputError{"--perturb " + name, "is not a technique",
+                     "use direct, specular, ambient (or interreflection), sky or glass"};
 }
 
 std::vector<ReferenceValue> reference_values()
 {
     std::vector<ReferenceValue> values;
-    for (const Case& c : all_cases()) {
+    for (const Case& listed : all_cases()) {
+        const Case c = listed.later ? listed.later() : listed;
         for (const auto& [key, value] : c.references)
             values.push_back({c.id, key, value});
         if (c.references.empty())
             for (const Setup& setup : c.setups)
-                for (const Check& check : setup.checks)
-                    values.push_back({c.id, check.quantity, check.expected});
+                for (const Check& check : setup.checks) {
+                    if (check.each.empty())
+                        values.push_back({c.id, check.quantity, check.expected});
+                    for (std::size_t i = 0; i < check.each.size(); ++i)
+                        values.push_back({c.id, check.names[i], check.each[i]});
+                }
     }
     return values;
 }

@@ -55,7 +55,8 @@ bool all_passed(const std::vector<ValidationRow>& rows);
 std::string validation_table(const std::vector<ValidationRow>& rows);
 /// Names of the techniques in a row, in a fixed order.
 std::vector<std::string> technique_names(unsigned techniques);
-/// @throws InputError that lists the four names
+/// @param name  also `ambient` for interreflection
+/// @throws InputError that lists the names
 Technique parse_perturbation(const std::string& name);
 
 /// A value recomputed from its formula, without the engine: case, key as `sensor` or `angle.part`, value.

@@ -1,6 +1,8 @@
+#include "plugins/validation/cie_sky.h"
 #include "plugins/validation/glass_formulas.h"
 #include "plugins/validation/lamp_formulas.h"
 #include "plugins/validation/quadrature.h"
+#include "plugins/validation/rectangle_factors.h"
 #include "plugins/validation/room_formulas.h"
 
 #include <gtest/gtest.h>
@@ -42,6 +44,33 @@ TEST(FormFactors, AreTheMeansOfLambertsPointValues)
             r.parallel ? parallel_rectangles(r.x, r.y, r.z) : perpendicular_rectangles(r.x, r.y, r.z);
         EXPECT_NEAR(mean / (r.x * r.y), expected, 2e-4 * expected);
     }
+}
+
+/// Rectangles anywhere along the axes: Lambert's point values over one of them, and a whole room, whose factors from
+/// each side add up to 1.
+TEST(FormFactors, BetweenRectanglesAnywhereAreTheMeansOfLambertsPointValues)
+{
+    const AxisRectangle floor{{0.2, 0.1, 0}, {1.1, 0.7, 0}, 2};
+    const AxisRectangle above{{0.5, -0.3, 0.8}, {2, 0.4, 0.8}, 2}, beside{{1.5, 0.3, 0.2}, {1.5, 1.4, 0.9}, 0},
+        before{{-0.5, -0.2, 0}, {0.6, -0.2, 0.5}, 1};
+    for (const AxisRectangle& lamp : {above, beside, before}) {
+        const int i = (lamp.axis + 1) % 3, k = (lamp.axis + 2) % 3;
+        std::vector<Point> corners(4, lamp.low);
+        corners[1][i] = corners[2][i] = lamp.high[i];
+        corners[2][k] = corners[3][k] = lamp.high[k];
+        double sum = 0;
+        for (const QuadratureNode& x : gauss_legendre(16, floor.low.x, floor.high.x))
+            for (const QuadratureNode& y : gauss_legendre(16, floor.low.y, floor.high.y))
+                sum += x.weight * y.weight * std::fabs(polygon_illuminance(corners, 1 / pi, {x.x, y.x, 0}, {0, 0, 1}));
+        EXPECT_NEAR(exchange_area(floor, lamp), sum, 1e-6) << lamp.axis;
+        EXPECT_NEAR(exchange_area(lamp, floor), sum, 1e-6) << lamp.axis;
+    }
+    const AxisRectangle sides[] = {{{0, 0, 0}, {4, 3, 0}, 2}, {{0, 0, 2}, {4, 3, 2}, 2}, {{0, 0, 0}, {0, 3, 2}, 0},
+                                   {{4, 0, 0}, {4, 3, 2}, 0}, {{0, 0, 0}, {4, 0, 2}, 1}, {{0, 3, 0}, {4, 3, 2}, 1}};
+    double sum = 0;
+    for (std::size_t side = 1; side < 6; ++side)
+        sum += exchange_area(sides[0], sides[side]);
+    EXPECT_NEAR(sum, 12, 1e-10);
 }
 
 TEST(FormFactors, OfDiscsAreTheMeansOfThePointValues)
@@ -107,6 +136,20 @@ TEST(Corner, TendsToTheLimitInTheEdgeAndToTheDirectLightFarAway)
     EXPECT_NEAR(corner.on_floor(1e-7), shared * 1.3, 1);
     EXPECT_NEAR(corner.on_wall(1e-7), shared * 1.4, 1);
     EXPECT_NEAR(corner.on_floor(1e4), 1000, 1e-3);
+}
+
+/// Type 5 is the uniform sky, and the traditional overcast sky has a closed form.
+TEST(Sky, GeneralSkiesWithoutDirectionGiveTheClosedForms)
+{
+    for (const double altitude : {0.4, 1.05}) {
+        const Direction sun{0, -std::cos(altitude), std::sin(altitude)};
+        for (const double tilt : {0.0, 0.9, 0.5 * pi}) {
+            const Direction normal{std::sin(tilt), 0, std::cos(tilt)};
+            EXPECT_NEAR(CieSkyFormula(5, sun).on_plane(normal), tilted_plane(SkyGradation::uniform, tilt), 1e-5);
+            EXPECT_NEAR(CieSkyFormula(traditional_overcast, sun).on_plane(normal),
+                        tilted_plane(SkyGradation::overcast, tilt), 1e-5);
+        }
+    }
 }
 
 /// Half a sphere of sky by summing small squares of it.
