@@ -56,7 +56,7 @@ void Builder::define(const EmittingBody& body)
         {look_.name + ".distribution",
          Varying{Varying::Kind::pattern, light_distribution(photometry_, body, look_.share, look_.name)},
          void_modifier});
-    const Material material = look_.seen ? Material{Light{Spectrum::grey(1)}} : Material{Illum{Spectrum::grey(1), ""}};
+    const Material material = look_.seen ? Material{Light{look_.colour}} : Material{Illum{look_.colour, ""}};
     light_ = scene_.add_material(look_.name + ".light", material, pattern);
 }
 

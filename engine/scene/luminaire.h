@@ -14,6 +14,7 @@ struct LuminaireLook {
     /// Half the extent of a body about the origin that must not stand in the way: flat openings are moved in front of
     /// it, others are made to hold it. 0: no body.
     Vec3 body{};
+    Spectrum colour = Spectrum::grey(1); ///< of the light; of luminance 1 the intensities are those of the file
 };
 
 /// A measured luminaire as a part of its own, to be placed by instances: the luminous opening as surfaces whose

@@ -4,9 +4,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import library_materials, light_and_view, mesh_export, sensor_grids
+from . import library_materials, light_and_view, mesh_export, sensor_grids, session
 from .lightwell_bridge import looks
 from .lightwell_bridge.lamps import add_lamp
+from .lightwell_bridge.luminaires import add_measured
 from .lightwell_bridge.names import UniqueNames
 from .lightwell_bridge.scene_folder import SceneFolder
 from .material_nodes import LookReader, Pictures
@@ -79,8 +80,12 @@ class Exporter:
     def _add_lamp(self, drawn):
         try:
             lamp = light_and_view.lamp_of(drawn, self.scale, self.scene.lightwell.efficacy, self.out.notes)
-            amount, notes = add_lamp(self.folder, lamp, drawn.source)
-        except (ValueError, OSError) as error:
+            measured = light_and_view.measured_lamp(lamp, drawn.original.data, self.folder, self.out.notes)
+            if measured is not None:
+                amount, notes = add_measured(self.folder, session.engine_path, measured, drawn.source)
+            else:
+                amount, notes = add_lamp(self.folder, lamp, drawn.source)
+        except (ValueError, OSError, session.EngineError) as error:
             self.out.notes.append(str(error))
             return
         self.out.lamps[lamp.name] = amount

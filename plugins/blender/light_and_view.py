@@ -1,9 +1,14 @@
 """Lamps, cameras and the world of Blender in the terms of the bridge."""
 
+import hashlib
 import math
 
-from .lightwell_bridge import sky
-from .lightwell_bridge.lamps import Lamp
+import bpy
+import numpy as np
+
+from .lightwell_bridge import colour, sky
+from .lightwell_bridge.lamps import Lamp, hue
+from .lightwell_bridge.luminaires import Measured
 from .lightwell_bridge.views import Camera
 
 _FISHEYES = {"FISHEYE_EQUIDISTANT": "EQUIDISTANT"}
@@ -29,6 +34,50 @@ def lamp_of(drawn, scale, efficacy, notes):
             notes.append(f"lamp \"{drawn.source}\": a spread of {math.degrees(data.spread):.0f} degrees is not modelled; "
                          "it shines as a diffuse panel")
     return lamp
+
+
+# Axes of a photometric file in the lamp's frame: plane 0 along -y, as Cycles has it, plane 90 along +x.
+FRAME_OF_FILES = np.array([[0.0, 1.0, 0.0, 0.0], [-1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+
+
+def measured_lamp(lamp, data, folder, notes):
+    """The lamp as a photometric file has it, or None when it names none.
+
+    A file in the lamp's Lightwell settings shines as measured. That of an IES texture in its nodes shines as in Cycles: the
+    file's candelas times the watts times the texture's strength.
+    @throws ValueError, OSError
+    """
+    path, factor = data.lightwell.ies, 1.0
+    if path:
+        file = bpy.path.abspath(path, library=data.library)
+    else:
+        node = _ies_node(data)
+        if node is None:
+            return None
+        file, factor = _file_of(node, data, folder), data.energy * node.inputs["Strength"].default_value
+    if lamp.kind == "SUN":
+        notes.append(f"lamp \"{lamp.name}\": a sun has no photometric file; {file} is not used")
+        return None
+    if lamp.kind != "POINT":
+        notes.append(f"lamp \"{lamp.name}\": size and cone are those of its photometric file")
+    matrix = np.asarray(lamp.matrix, dtype=float) @ FRAME_OF_FILES
+    return Measured(lamp.name, file, matrix, lumens=lamp.lumens, factor=factor, colour=colour.of_luminance(hue(lamp), 1.0))
+
+
+def _ies_node(data):
+    nodes = data.node_tree.nodes if data.use_nodes and data.node_tree else ()
+    return next((n for n in nodes if n.type == "TEX_IES" and n.outputs[0].is_linked), None)
+
+
+def _file_of(node, data, folder):
+    """A text block of the file becomes a file beside the scene."""
+    if node.mode == "EXTERNAL":
+        return bpy.path.abspath(node.filepath, library=data.library)
+    if node.ies is None:
+        raise ValueError(f"lamp \"{data.name}\": its IES texture names no text")
+    name = f"luminaires/{hashlib.sha256(node.ies.name.encode()).hexdigest()[:12]}.ies"
+    folder.file(name, node.ies.as_string().encode())
+    return folder.path / name
 
 
 def _metres(matrix, scale):
@@ -94,20 +143,19 @@ def _add_world(folder, scene, efficacy, notes):
     world = scene.world
     if world is None:
         return False
-    colour, strength = tuple(world.color), 1.0
+    background, strength = tuple(world.color), 1.0
     node = None
     if world.use_nodes and world.node_tree:
         node = next((n for n in world.node_tree.nodes if n.type == "BACKGROUND"), None)
     if node is not None:
-        colour, strength = tuple(node.inputs["Color"].default_value[:3]), node.inputs["Strength"].default_value
+        background, strength = tuple(node.inputs["Color"].default_value[:3]), node.inputs["Strength"].default_value
         links = node.inputs["Color"].links
         source = links[0].from_node if links else None
         if source is not None and source.type == "TEX_SKY":
             return _add_sky_texture(folder, source, notes)
         if source is not None:
             notes.append(f"world \"{world.name}\": {source.bl_label} is not read; its colour is taken all around")
-    from .lightwell_bridge import colour as colours
-    rgb = tuple(c * strength * efficacy / colours.LUMENS_PER_WATT for c in colours.from_rec709(colour))
+    rgb = tuple(c * strength * efficacy / colour.LUMENS_PER_WATT for c in colour.from_rec709(background))
     if max(rgb) <= 0:
         return False
     folder.text(sky.uniform_text(rgb), light=True)

@@ -157,7 +157,7 @@ class LIGHTWELL_PT_lamp(_DataPanel):
         return context.light is not None
 
     def draw(self, context):
-        self.fields(context.light.lightwell, "lumens", "kelvin")
+        self.fields(context.light.lightwell, "lumens", "kelvin", "ies")
 
 
 class LIGHTWELL_PT_object(_DataPanel):

@@ -26,6 +26,9 @@ class LampSettings(bpy.types.PropertyGroup):
     lumens: FloatProperty(name="Lumens", min=0, soft_max=20000,
                           description="Luminous flux that leaves the lamp; lux for a sun. 0: the watts of Blender times "
                                       "the efficacy of the scene")
+    ies: StringProperty(name="Photometric file", subtype="FILE_PATH", description="IES or EULUMDAT file of this lamp: its "
+                        "light goes where it was measured, along the lamp's -z. Its lumens count unless Lumens says otherwise, "
+                        "the watts of Blender do not. Empty: an IES texture of the lamp's nodes, or shining evenly")
     kelvin: FloatProperty(name="Colour temperature (K)", min=0, max=25000,
                           description="Hue of a black body of this temperature, for example 3000 for warm white. 0: the "
                                       "colour of the lamp alone")

@@ -31,7 +31,7 @@ class Viewport:
         self._dirty, self._view, self._asked = True, None, None
         self._request, self._texture, self._changed, self._level = None, None, time.monotonic(), 0
         self._wish = {}
-        self._cancelled, self.stop_seconds = {}, []  # when each was told to stop; how long each took
+        self._cancelled, self.stop_seconds = {}, []  # when each was told to stop; until the engine said so
         self.failure, self.shown = None, 0  # pictures
         LIVE.add(self)
 
@@ -103,7 +103,7 @@ class Viewport:
         for old, told in list(self._cancelled.items()):
             while (event := client.next_event(old)) is not None:
                 if event["event"] in FINAL:
-                    self.stop_seconds.append(time.monotonic() - told)
+                    self.stop_seconds.append(event["arrived"] - told)
                     del self._cancelled[old]
                     break
         while self._request is not None and (event := client.next_event(self._request)) is not None:

@@ -1,6 +1,9 @@
+#include "engine/scene/luminaire.h"
+
 #include "engine/base/errors.h"
 #include "engine/base/spectrum.h"
 #include "engine/base/text.h"
+#include "importers/radiance/radiance.h"
 #include "plugins/cli/luminaire_picture.h"
 #include "plugins/cli/subcommands.h"
 
@@ -8,15 +11,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 namespace lightwell {
 namespace {
 
 struct LuminaireOptions {
-    std::string file, picture;
-    std::vector<double> aim{0, 0, -1};
-    double turn_deg = 0;
+    std::string file, picture, scene;
+    std::vector<double> aim{0, 0, -1}, body{0, 0, 0}, colour{1, 1, 1};
+    double turn_deg = 0, share = 1;
     bool json = false;
 };
 
@@ -24,6 +29,7 @@ constexpr const char* examples = R"(Examples:
   lightwell luminaire panel.ies                         flux, intensities, opening
   lightwell luminaire panel.ldt -o panel.png            polar plot
   lightwell luminaire flood.ies -o flood.png --aim 0.3,0,-1 --turn 90
+  lightwell luminaire panel.ies --scene panel.rad       to be placed by `instance` or `!xform`
 In a layer map: luminaire = "panel.ies" in a rule, with aim = [x, y, z] and turn = DEGREES.)";
 
 std::string opening_text(const Photometry::Opening& opening)
@@ -75,6 +81,24 @@ void print_json(const Photometry& p, std::ostream& out)
         << '\n';
 }
 
+/// The luminaire in its own frame, so that whoever places it turns it.
+void write_scene(const Photometry& photometry, const LuminaireOptions& options, const Vec3& aim, Report& report)
+{
+    const Vec3 size{options.body[0], options.body[1], options.body[2]};
+    if (!is_finite(size) || size.x < 0 || size.y < 0 || size.z < 0)
+        throw InputError{"--body", "is no size", "three lengths in metres, at least 0, for example 0.6,0.6,0.05"};
+    const double tilt_deg = std::acos(std::clamp(-normalized(aim).z, -1.0, 1.0)) / radians_per_degree;
+    const std::filesystem::path file = options.scene;
+    const Vec3 colour{options.colour[0], options.colour[1], options.colour[2]};
+    if (!is_finite(colour) || colour.x < 0 || colour.y < 0 || colour.z < 0)
+        throw InputError{"--colour", "is no colour", "three numbers, at least 0, for example 1.2,0.95,0.6"};
+    const LuminaireLook look{file.stem().string(), true, options.share * photometry.share_tilted(tilt_deg), size * 0.5,
+                             Spectrum{colour.x, colour.y, colour.z}};
+    Scene scene;
+    scene.root = luminaire_part(scene, photometry, look, report);
+    write_radiance(scene, file, {}, report);
+}
+
 Status luminaire(const LuminaireOptions& options, std::ostream& out, std::ostream& err)
 {
     Report report;
@@ -88,13 +112,16 @@ Status luminaire(const LuminaireOptions& options, std::ostream& out, std::ostrea
         print_table(photometry, out);
     if (!options.picture.empty())
         write_png(luminaire_picture(photometry, luminaire_frame(aim, options.turn_deg)), options.picture);
+    if (!options.scene.empty())
+        write_scene(photometry, options, aim, report);
     err << report;
     return Status::done;
 }
 
 } // namespace
 
-/// lightwell luminaire FILE [-o PICTURE.png] [--aim X,Y,Z] [--turn DEGREES] [--json]: what a photometric file holds.
+/// lightwell luminaire FILE [-o PICTURE.png] [--aim X,Y,Z] [--turn DEGREES] [--scene NAME.rad] [--json]: what a
+/// photometric file holds.
 void add_luminaire(CLI::App& app, Status& status)
 {
     auto options = std::make_shared<LuminaireOptions>();
@@ -103,6 +130,17 @@ void add_luminaire(CLI::App& app, Status& status)
     command.add_option("-o,--output", options->picture, "polar plot, aim and rotation as PNG");
     command.add_option("--aim", options->aim, "where its light goes in the picture")->delimiter(',')->expected(3);
     command.add_option("--turn", options->turn_deg, "degrees about its axis")->check(CLI::Range(-360, 360));
+    command.add_option("--scene", options->scene,
+                       "its luminous opening as scene text, light towards -z, plane 0 along +x; --aim tells its tilt");
+    command
+        .add_option("--body", options->body, "size in metres of a body about the origin that must not stand in the way")
+        ->delimiter(',')
+        ->expected(3);
+    command
+        .add_option("--colour", options->colour, "of its light: red, green, blue; luminance 1 keeps the intensities")
+        ->delimiter(',')
+        ->expected(3);
+    command.add_option("--share", options->share, "factor on the light")->check(CLI::Range(1e-9, 1e9));
     command.add_flag("--json", options->json, "for programs");
     command.footer(examples);
     command.callback([options, &status] { status = luminaire(*options, std::cout, std::cerr); });

@@ -84,6 +84,10 @@ void append_scene(Scene& to, const Scene& from)
         modifier.parent = offsets(modifier.parent);
         if (auto* alias = std::get_if<Alias>(&modifier.what))
             alias->target = offsets(alias->target);
+        if (auto* varying = std::get_if<Varying>(&modifier.what)) {
+            varying->foreground = offsets(varying->foreground);
+            varying->background = offsets(varying->background);
+        }
     }
     append_part(to.root, from.root, offsets);
     for (const Part& part : from.prototypes) {

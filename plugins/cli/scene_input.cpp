@@ -24,8 +24,22 @@ std::string names_of(const std::vector<Named>& list)
     return names;
 }
 
+/// Says "the material that a scene description among the inputs defines".
+const std::string scene_prefix = "scene:";
+
+/// The plain materials of the scene descriptions, for rules of the layer map.
+void offer_materials(Imported& drawings, const std::vector<Scene>& descriptions)
+{
+    for (const Scene& scene : descriptions)
+        for (std::size_t id = 0; id < scene.modifiers.size(); ++id) {
+            const ResolvedMaterial found = resolve(scene, static_cast<ModifierId>(id));
+            if (found.material != nullptr && found.brightness == nullptr && !found.varies)
+                drawings.file_materials.emplace_back(scene_prefix + scene.modifiers[id].name, *found.material);
+        }
+}
+
 /// The CAD files among the inputs, under one layer map.
-void add_drawings(const SceneInputs& inputs, LitScene& lit)
+void add_drawings(const SceneInputs& inputs, const std::vector<Scene>& descriptions, LitScene& lit)
 {
     Imported all;
     bool any = false;
@@ -44,6 +58,7 @@ void add_drawings(const SceneInputs& inputs, LitScene& lit)
                          "layers of a scene description have their materials already: leave the map out");
     if (!any)
         return;
+    offer_materials(all, descriptions);
     apply_layer_map(all, inputs.map.empty() ? LayerMap{} : read_layer_map(inputs.map));
     lit.report.add(all.report);
     lit.provenance["unit"] = all.unit;
@@ -72,13 +87,16 @@ bool is_scene_text(const std::filesystem::path& file)
 LitScene light_scene(const SceneInputs& inputs)
 {
     LitScene lit;
-    add_drawings(inputs, lit);
+    std::vector<Scene> descriptions;
     std::string files;
     for (const std::filesystem::path& file : inputs.files) {
         if (is_scene_text(file))
-            append_scene(lit.scene, read_radiance(file, lit.report));
+            descriptions.push_back(read_radiance(file, lit.report));
         files += (files.empty() ? "" : ", ") + file.string();
     }
+    add_drawings(inputs, descriptions, lit);
+    for (const Scene& scene : descriptions)
+        append_scene(lit.scene, scene);
     lit.provenance["scene"] = files;
     if (!inputs.map.empty())
         lit.provenance["map"] = inputs.map.string();

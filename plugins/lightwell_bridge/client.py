@@ -42,10 +42,10 @@ class Client:
         for thread in self._threads:
             thread.start()
         try:
-            line = self._queue.get(timeout=seconds)
-            if line is None:
+            entry = self._queue.get(timeout=seconds)
+            if entry is None:
                 raise EngineError(self._death())
-            self.hello = check_hello(line, path)
+            self.hello = check_hello(entry[0], path)
         except queue.Empty:
             self.close()
             raise EngineError(f"{path} does not greet within {seconds:g} s") from None
@@ -74,7 +74,7 @@ class Client:
         self._write({"id": self._number, "do": "cancel", "target": number})
 
     def next_event(self, number, timeout=0.0):
-        """The next event of a request, or None when nothing has come in that time.
+        """The next event of a request, or None when nothing has come in that time. `arrived`: time.monotonic() then.
 
         @throws EngineError when the engine is gone
         """
@@ -168,7 +168,7 @@ class Client:
     def _read(self):
         try:
             for line in self._process.stdout:
-                self._queue.put(line)
+                self._queue.put((line, time.monotonic()))
                 if self.listener is not None:
                     self.listener()
         except ValueError:
@@ -191,15 +191,16 @@ class Client:
             except queue.Empty:
                 return
 
-    def _take(self, line):
-        if line is None:
+    def _take(self, entry):
+        if entry is None:
             self._queue.put(None)  # the next one who asks shall know too
             raise EngineError(self._death())
+        line, arrived = entry
         try:
             event = json.loads(line)
             events = self._waiting.get(event.get("id"))
             if events is not None and isinstance(event.get("event"), str):
-                events.append(event)
+                events.append(dict(event, arrived=arrived))
         except (ValueError, AttributeError):
             self._complaints.append(line.rstrip()[:200])
 

@@ -51,18 +51,19 @@ def add_lamp(folder, lamp, source=None):
     return amount, notes
 
 
-def _hue(lamp):
+def hue(lamp):
+    """Linear Rec.709, of any brightness."""
     if lamp.kelvin is None:
         return lamp.tint
-    return tuple(t * c for t, c in zip(lamp.tint, colour.blackbody_hue(lamp.kelvin)))
+    return tuple(t * c for t, c in zip(lamp.tint, colour.blackbodyhue(lamp.kelvin)))
 
 
 def _radiance(lamp, per_watt, per_lumen):
     """Engine radiance from what one watt, or one lumen, makes of the lamp's radiance or luminance."""
     if lamp.lumens is not None:
-        return colour.of_luminance(_hue(lamp), lamp.lumens * per_lumen / colour.LUMENS_PER_WATT)
+        return colour.of_luminance(hue(lamp), lamp.lumens * per_lumen / colour.LUMENS_PER_WATT)
     scale = lamp.watts * per_watt * lamp.efficacy / colour.LUMENS_PER_WATT
-    return tuple(c * scale for c in colour.from_rec709(_hue(lamp)))
+    return tuple(c * scale for c in colour.from_rec709(hue(lamp)))
 
 
 def _luminance(rgb):

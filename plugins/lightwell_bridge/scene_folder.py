@@ -1,4 +1,4 @@
-"""A scene folder: scene.rad in the scene language, parts/ with meshes, textures/ with pictures.
+"""A scene folder: scene.rad in the scene language, parts/ with meshes, textures/ with pictures, luminaires/ as measured.
 
     folder = SceneFolder("/tmp/job")
     folder.material("plastic", "Oak", numbers=(0.4, 0.28, 0.15, 0, 0))
@@ -15,11 +15,12 @@ import hashlib
 import math
 import os
 import pathlib
+import shutil
 
 from . import names, ply
 
 SCENE = "scene.rad"
-PARTS, TEXTURES = "parts", "textures"
+PARTS, TEXTURES, LUMINAIRES = "parts", "textures", "luminaires"
 
 # What a surface of the scene language takes: the count of its numbers (a polygon takes any multiple of 3 from 9 on).
 _SURFACES = {"sphere": 4, "bubble": 4, "cylinder": 7, "tube": 7, "cone": 8, "cup": 8, "ring": 8, "source": 4,
@@ -31,7 +32,7 @@ class SceneFolder:
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
-        for folder in (self.path, self.path / PARTS, self.path / TEXTURES):
+        for folder in (self.path, self.path / PARTS, self.path / TEXTURES, self.path / LUMINAIRES):
             folder.mkdir(parents=True, exist_ok=True)
         self._head, self._modifiers, self._lights, self._surfaces, self._marks = [], [], [], [], []
         self._files, self._known, self._part_names = set(), {}, {}
@@ -88,6 +89,12 @@ class SceneFolder:
         self._write(file, data)
         return file
 
+    def luminaire(self, wanted, digest):
+        """The file, named after the digest of its content, that the engine writes a luminaire to; save() keeps it."""
+        file = f"{LUMINAIRES}/{_file_stem(wanted)}-{digest[:12]}.rad"
+        self._files.add(file)
+        return file
+
     def file(self, name, data):
         """Another file of the folder, for instance a sky that the text refers to."""
         self._write(name, data)
@@ -100,9 +107,9 @@ class SceneFolder:
         """The Catmull-Clark limit surface of a part that is a control cage."""
         self._place("subdivision", modifier, name, part, matrix, source, (chord_tolerance_m,))
 
-    def instance(self, name, part, matrix=None, source=None):
+    def instance(self, name, part, matrix=None, source=None, light=False):
         """A prototype of scene text."""
-        self._place("instance", "void", name, part, matrix, source, ())
+        self._place("instance", "void", name, part, matrix, source, (), light)
 
     def surface(self, modifier, kind, name, numbers, source=None, light=False):
         """A polygon, sphere, bubble, cylinder, tube, cone, cup, ring or source."""
@@ -113,9 +120,9 @@ class SceneFolder:
         """Lines of the language, as they are."""
         (self._lights if light else self._surfaces).append(text.rstrip("\n") + "\n")
 
-    def _place(self, kind, modifier, name, part, matrix, source, numbers):
+    def _place(self, kind, modifier, name, part, matrix, source, numbers, light=False):
         words = [part] + transform_words(matrix)
-        self._surfaces.append(_from(source) + _primitive(modifier, kind, name, words, numbers))
+        (self._lights if light else self._surfaces).append(_from(source) + _primitive(modifier, kind, name, words, numbers))
 
     # --- views and grids
 
@@ -144,6 +151,9 @@ class SceneFolder:
             for file in (self.path / folder).iterdir():
                 if file.is_file() and f"{folder}/{file.name}" not in self._files:
                     file.unlink()
+        for entry in (self.path / LUMINAIRES).iterdir():  # NAME.rad and NAME.parts/
+            if f"{LUMINAIRES}/{entry.stem}.rad" not in self._files:
+                shutil.rmtree(entry) if entry.is_dir() else entry.unlink()
         return self.path / SCENE
 
     def _write(self, file, data):

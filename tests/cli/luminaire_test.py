@@ -3,6 +3,7 @@
 
 import json
 import math
+import pathlib
 import struct
 import unittest
 
@@ -21,6 +22,19 @@ class Luminaire(Case):
     def setUp(self):
         super().setUp()
         self.write("panel.ies", ies(lambda a: 1000 * math.cos(a), "0.3 1.2 0"))
+
+    def test_a_luminaire_becomes_scene_text_that_shines_as_the_file(self):
+        """What a floor gets straight below it, four metres away, tells its candela."""
+        self.expect(DONE, "luminaire", "panel.ies", "--scene", "panel.rad", "--share", "0.5", "--body", "0.1,0.1,0.02")
+        self.write("room.rad", "void plastic black 0 0 5 0 0 0 0 0\nblack polygon floor 0 0 12 -1 -1 0 1 -1 0 1 1 0 -1 1 0\n"
+                   "void instance lamp 14 panel.rad -affine 1 0 0 0 0 1 0 0 0 0 1 4 0 0\n")
+        self.expect(DONE, "illuminance", "room.rad", "--grid", "plane:0.001,-0.1,-0.1,0.1,0.1/0.2", "-o", "a.csv")
+        lux = float((pathlib.Path(self.folder) / "a.csv").read_text().splitlines()[1].split(",")[6])
+        candela = json.loads(self.expect(DONE, "luminaire", "panel.ies", "--json").stdout)["greatest_candela"]
+        self.assertAlmostEqual(lux * 4 ** 2 / (0.5 * candela), 1, delta=0.05)
+        self.expect(BAD_INPUT, "luminaire", "panel.ies", "--scene", "b.rad", "--body", "1,-1,0", says=("--body",))
+        self.expect(BAD_INPUT, "luminaire", "panel.ies", "--scene", "b.rad", "--colour", "1,nan,0", says=("--colour",))
+        self.expect(BAD_INPUT, "luminaire", "panel.ies", "--scene", "no folder/b.rad", says=("no folder",))
 
     def test_numbers_and_picture(self):
         done = self.expect(DONE, "luminaire", "panel.ies", "-o", "panel.png", "--json", "--aim", "0.3,0,-1", "--turn", "30")

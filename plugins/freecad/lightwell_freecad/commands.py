@@ -72,8 +72,8 @@ class AddGrid(Command):
 
 class MakeLuminaire(Command):
     icon, text = "luminaire", "Luminaire"
-    tip = ("Makes the selected objects shine: all their fronts, evenly. Lumens and colour temperature are properties of the "
-           "object in the group Lightwell")
+    tip = ("Makes the selected objects shine: all their fronts, evenly, or as an IES file has it. Lumens, colour temperature "
+           "and the file are properties of the object in the group Lightwell")
 
     def do(self, document):
         chosen = FreeCADGui.Selection.getSelection(document.Name)

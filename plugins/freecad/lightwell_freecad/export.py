@@ -2,16 +2,17 @@
 
 import json
 import math
-import pathlib
 
 import numpy as np
 
 from lightwell_bridge import colour, sky as skies
+from lightwell_bridge.engine import EngineError, find_engine
 from lightwell_bridge.library import add_library_material
+from lightwell_bridge.luminaires import Measured, add_measured
 from lightwell_bridge.ply import PlyMesh
 from lightwell_bridge.scene_folder import SceneFolder
 
-from . import curved, faces, grids, optics, walk
+from . import curved, faces, grids, optics, photometry, walk
 from .appearance import Appearance
 from .layer_map import LayerMap
 
@@ -39,23 +40,25 @@ class Exported:
                 "notes": self.notes}
 
 
-def export_document(document, folder_path, tolerance_mm=DEFAULT_TOLERANCE_MM, views=(), sky=None, more_grids=(), rules=(), library=None):
+def export_document(document, folder_path, tolerance_mm=DEFAULT_TOLERANCE_MM, views=(), sky=None, more_grids=(), rules=(), library=None,
+                    engine=None):
     """Writes the folder; nothing in the document changes.
 
     @param views  pairs of a name and the words of a view
     @param rules  pairs of a pattern for names of layers and a name in `library`, the engine's named materials
     @param sky    of lightwell_bridge.sky; None: luminaires only
+    @param engine  gives the path of the engine, which reads photometric files; asked only when one is named
     @throws ValueError when there is nothing to export, or a tolerance that is no length
     """
     if not (math.isfinite(tolerance_mm) and tolerance_mm > 0):
         raise ValueError(f"the chord tolerance is {tolerance_mm} mm, expected more than 0")
     layer_map = LayerMap(rules, library or {})
-    return _Export(document, folder_path, tolerance_mm, layer_map).run(views, sky, more_grids)
+    return _Export(document, folder_path, tolerance_mm, layer_map, engine).run(views, sky, more_grids)
 
 
 class _Export:
-    def __init__(self, document, folder_path, tolerance_mm, layer_map):
-        self.document, self.tolerance_mm, self.layer_map = document, tolerance_mm, layer_map
+    def __init__(self, document, folder_path, tolerance_mm, layer_map, engine):
+        self.document, self.tolerance_mm, self.layer_map, self.engine = document, tolerance_mm, layer_map, engine
         self.folder, self.result = SceneFolder(folder_path), Exported()
         self.appearance = Appearance(document)
         self.translated = {}
@@ -91,6 +94,9 @@ class _Export:
         if role == "sensor plane":
             self._grid(grids.of_face(one, float(getattr(one.owner, "lw_spacing", 500.0))))
             return
+        if role == "luminaire" and getattr(one.owner, "lw_ies", ""):
+            self._measured(one)
+            role = "body of a luminaire"
         if one.is_mesh():
             self._place_mesh(one)
             return
@@ -197,7 +203,7 @@ class _Export:
     # --- materials
 
     def _modifiers(self, one, surfaces, keys, role):
-        """Index of a face -> name of its modifier, defined in the folder."""
+        """Index of a face -> name of its modifier, defined in the folder. What a file measured is a body as drawn."""
         scale = _scale_of(one.matrix) or 1.0
         area = sum(s.exported_m2 for s in surfaces) * scale * scale
         return {s.index: self._modifier_of(one, keys[s.index], area, role) for s in surfaces}
@@ -229,10 +235,9 @@ class _Export:
         return _in_words(kind, numbers)
 
     def _light(self, one, area_m2):
-        lumens, kelvin = float(getattr(one.owner, "lw_lumens", 0.0)), float(getattr(one.owner, "lw_cct", 4000) or 4000)
+        lumens, kelvin = float(getattr(one.owner, "lw_lumens", 0.0)), optics.kelvin_of(one.owner)
         name = f"{one.path} (light)"
         if name not in self.result.layers:
-            self._check_photometry(one)
             rgb = optics.light_of(lumens, kelvin, area_m2)
             self.folder.material("light", name, rgb)
             self.result.lights[one.path] = {"lumens": lumens, "kelvin": kelvin, "area_m2": area_m2,
@@ -240,12 +245,18 @@ class _Export:
             self.result.layers[name] = {"decided": "luminaire", "material": f"light, {lumens:g} lm", "faces": 0, "area_m2": 0.0}
         return name
 
-    def _check_photometry(self, one):
-        file = getattr(one.owner, "lw_ies", "")
-        if file and not pathlib.Path(file).is_file():
-            raise ValueError(f"there is no photometric file {file}; correct lw_ies or clear it")
-        if file:
-            self._note(one.owner.Label, f"shines evenly: {file} is not used yet, only its lumens as typed")
+    def _measured(self, one):
+        """The luminous opening of its photometric file, before or around the body as drawn."""
+        place, body_m = photometry.place_of(one)
+        hue = colour.blackbody_hue(optics.kelvin_of(one.owner))
+        lamp = Measured(one.owner.Label, photometry.file_of(one.owner), place, colour=colour.of_luminance(hue, 1.0),
+                        body_m=body_m)
+        try:
+            lumens, notes = add_measured(self.folder, self.engine or find_engine, lamp, one.path)
+        except EngineError as error:
+            raise ValueError(str(error)) from error
+        self.result.notes += notes
+        self.result.lights[one.path] = {"lumens": lumens, "file": str(lamp.file)}
 
     def _grid(self, grid):
         self.folder.grid(grid.name, grid.sensors, grid.rows, grid.columns, grid.spacing_m, grid.cells)

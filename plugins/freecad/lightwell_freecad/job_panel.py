@@ -3,7 +3,7 @@
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-# How often the panel looks for news, ms: a stop takes effect within twice that and what the engine needs.
+# How often the panel looks for news, ms.
 TICK_MS = 40
 
 
@@ -52,7 +52,7 @@ class JobPanel:
 
     def cancel(self):
         self.job.cancel()
-        self.stop.setEnabled(False)
+        self.tick()
 
     # --- what FreeCAD asks of a panel
 
@@ -61,8 +61,7 @@ class JobPanel:
 
     def reject(self):
         if self.timer.isActive():
-            self.job.cancel()
-            self.stop.setEnabled(False)
+            self.cancel()
             return False
         FreeCADGui.Control.closeDialog()
         return True

@@ -11,6 +11,7 @@ from lightwell_bridge import colour
 
 DEFAULT = "(no layer)"
 DEFAULT_REFLECTANCE = 0.5
+USUAL_KELVIN = 4000.0
 # No painted surface is whiter: a colour that says more is lowered to it.
 HIGHEST_REFLECTANCE = 0.9
 
@@ -67,12 +68,21 @@ def material_of(key):
     return "plastic", tuple(min(c, HIGHEST_REFLECTANCE) for c in colour.from_rec709(linear)) + (0, 0)
 
 
+def kelvin_of(owner):
+    """Colour temperature of a luminaire.
+
+    @throws ValueError when it is none
+    """
+    kelvin = float(getattr(owner, "lw_cct", 0) or USUAL_KELVIN)
+    if not 1000 <= kelvin <= 40000:
+        raise ValueError(f"its colour temperature is {kelvin} K, expected 1000 to 40000")
+    return kelvin
+
+
 def light_of(lumens, kelvin, area_m2):
     """Numbers of a `light` that leaves `area_m2` with that flux, the same in all directions."""
     if not (lumens > 0 and math.isfinite(lumens)):
         raise ValueError(f"it shall give {lumens} lm, expected more than 0")
-    if not 1000 <= kelvin <= 40000:
-        raise ValueError(f"its colour temperature is {kelvin} K, expected 1000 to 40000")
     luminance = lumens / (math.pi * area_m2)
     return colour.of_luminance(colour.blackbody_hue(kelvin), luminance / colour.LUMENS_PER_WATT)
 

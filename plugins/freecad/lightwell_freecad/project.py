@@ -123,14 +123,17 @@ def add_grid(project, owner, face=None, spacing_mm=500.0, offset_mm=0.0, label=N
     return obj
 
 
-def make_luminaire(obj, lumens=1000.0, kelvin=4000):
-    """Makes an object shine: evenly, from all its fronts."""
+def make_luminaire(obj, lumens=1000.0, kelvin=4000, ies=""):
+    """Makes an object shine: evenly, from all its fronts, or as a photometric file has measured it."""
     for kind, name, tip, value in (("App::PropertyString", "lw_role", "What it does in a lighting simulation", "luminaire"),
                                    ("App::PropertyFloat", "lw_lumens", "Luminous flux, lm", float(lumens)),
-                                   ("App::PropertyInteger", "lw_cct", "Colour temperature, K", int(kelvin))):
+                                   ("App::PropertyInteger", "lw_cct", "Colour temperature, K", int(kelvin)),
+                                   ("App::PropertyString", "lw_ies", "IES or EULUMDAT file: its light and its lumens count, "
+                                    "towards the object's -z; empty: evenly, with lw_lumens", str(ies))):
         if name not in obj.PropertiesList:
             obj.addProperty(kind, name, "Lightwell", tip)
-        setattr(obj, name, value)
+        if value != "":
+            setattr(obj, name, value)
     return obj
 
 

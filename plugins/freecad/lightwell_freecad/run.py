@@ -16,7 +16,7 @@ import time
 import FreeCAD
 
 from lightwell_bridge import library, results as numbers
-from lightwell_bridge.client import Client, sentence_of
+from lightwell_bridge.client import FINAL, Client, sentence_of
 from lightwell_bridge.engine import EngineError, find_engine
 
 from . import export, faces_file, pictures, project as projects, results
@@ -27,8 +27,8 @@ ILLUMINANCE, OBJECTS = "illuminance of grids", "illuminance of objects"
 # How often a call that waits looks whether something has come, s.
 WAIT_S = 0.02
 MM_PER_M = 1000.0
-# An engine that has not stopped after this time is left behind and ended, s: people wait 200 ms at most.
-GRACE_S = 0.1
+# An engine that was told to stop and goes on for this time is ended, s; nobody waits for it.
+GRACE_S = 2.0
 
 
 class Failed(Exception):
@@ -42,25 +42,48 @@ class _Session:
         self.temporary = tempfile.TemporaryDirectory(prefix="lightwell-")
         self.folder = pathlib.Path(self.temporary.name)
         self.client, self.loaded = None, False
+        self.stop_seconds = []  # of each request that was stopped: until the engine said that it has
+        self._leaving = None
 
     def ready(self, program):
         """A running engine: the last one when it still lives and is the one that is wanted.
 
         @throws EngineError
         """
+        self._settle()
         if self.client is not None and (not self.client.alive() or self.client.path != program):
             self.end()
         if self.client is None:
             self.client = Client(program)
         return self.client
 
-    def abandon(self):
-        """Leaves an engine that does not listen to its end, without waiting for it."""
-        client, self.client, self.loaded = self.client, None, False
-        if client is not None:
-            threading.Thread(target=client.close, daemon=True).start()
+    def leave(self, number):
+        """Stops a request without waiting: the engine stays for the next job, or is ended when it does not listen.
+
+        @throws EngineError when the engine is gone
+        """
+        self.client.cancel(number)
+        self._leaving = threading.Thread(target=self._wait_for_end, args=(self.client, number, time.monotonic()), daemon=True)
+        self._leaving.start()
+
+    def _wait_for_end(self, client, number, told):
+        try:
+            while time.monotonic() - told < GRACE_S:
+                event = client.next_event(number, WAIT_S)
+                if event is not None and event["event"] in FINAL:
+                    self.stop_seconds.append(event["arrived"] - told)
+                    return
+        except EngineError:
+            pass  # it is gone, which is an end too
+        client.close()
+
+    def _settle(self):
+        if self._leaving is not None:
+            self._leaving.join()
+            self._leaving = None
 
     def end(self):
+        self._settle()
         if self.client is not None:
             self.client.close()
         self.client, self.loaded = None, False
@@ -104,12 +127,12 @@ def write_scene(document, folder, with_map=True):
     project = projects.find(document)
     try:
         if project is None:
-            return export.export_document(document, folder)
+            return export.export_document(document, folder, engine=program_of)
         rules, problems = projects.rules_of(project) if with_map else [], []
         known = library.read_library(program_of(project)) if rules else {}
         grids = projects.grids_of(project, problems.append)
         exported = export.export_document(document, folder, float(project.ChordTolerance.Value), projects.views_of(project),
-                                          projects.sky_of(project), grids, rules, known)
+                                          projects.sky_of(project), grids, rules, known, lambda: program_of(project))
         exported.notes += problems
         return exported
     except (ValueError, OSError) as error:
@@ -165,7 +188,7 @@ class Job:
         self.fraction, self.text, self.phase, self.seconds_left = 0.0, "writing the scene", "", None
         self.error, self.stopped, self.notes = "", False, []
         self.objects, self.grids, self.pictures = [], [], []
-        self._work, self._request, self._cancelled_at = self._steps(), None, None
+        self._work, self._request = self._steps(), None
         self._session = session_of(project.Document)
         self._done = False
 
@@ -181,37 +204,28 @@ class Job:
         return not self._done
 
     def cancel(self):
-        """Asks the engine to stop; poll() ends soon after."""
-        if self._done or self._cancelled_at is not None:
+        """Ends the job at once; the engine is told to stop, and the next job waits for that."""
+        if self._done:
             return
-        self._cancelled_at = time.monotonic()
-        self.text = "stopping"
-        if self._request is not None:
-            try:
-                self._session.client.cancel(self._request)
-            except EngineError as error:
-                self._fail(str(error))
+        self.stopped, self.text = True, "stopped"
+        try:
+            if self._request is not None:
+                self._session.leave(self._request)
+        except EngineError:
+            pass  # it is gone: the next job starts another
+        self._fail("")
 
     def _fail(self, sentence):
-        self._done = True
+        self._done, self.error = True, sentence
         self._work.close()
-        if self._cancelled_at is not None:
-            self.stopped = True
-        else:
-            self.error = sentence
 
     def _carry_on(self):
         """One step: starts the next request, or looks for an event of the present one."""
         if self._request is None:
-            if self._cancelled_at is not None:
-                return self._fail("")
             self._request = next(self._work)
             return
         event = self._session.client.next_event(self._request)
         if event is None:
-            if self._cancelled_at is not None and time.monotonic() - self._cancelled_at > GRACE_S:
-                self._session.abandon()
-                self._fail("")
             return
         if event["event"] == "progress":
             self.fraction = min(max(float(event.get("fraction") or 0), 0.0), 1.0)
@@ -219,7 +233,7 @@ class Job:
         elif event["event"] == "error":
             raise Failed(sentence_of(event))
         elif event["event"] == "cancelled":
-            self._fail("")
+            raise Failed("the engine stopped the simulation by itself")
         elif event["event"] == "result":
             self._request = None
             self._request = self._work.send(event)
@@ -256,10 +270,11 @@ class Job:
     def _load(self, client, exported):
         self.text = "reading the scene"
         if self._session.loaded:
+            self._session.loaded = False  # until the engine has said that it is
             event = yield client.send("edit")
         else:
             event = yield client.send("load", scene=str(exported.scene))
-            self._session.loaded = True
+        self._session.loaded = True
         self.notes += _notes(event)
 
     def _effort(self):
