@@ -55,7 +55,7 @@ def hue(lamp):
     """Linear Rec.709, of any brightness."""
     if lamp.kelvin is None:
         return lamp.tint
-    return tuple(t * c for t, c in zip(lamp.tint, colour.blackbodyhue(lamp.kelvin)))
+    return tuple(t * c for t, c in zip(lamp.tint, colour.blackbody_hue(lamp.kelvin)))
 
 
 def _radiance(lamp, per_watt, per_lumen):
