@@ -17,8 +17,8 @@ Kind kind_of(std::string_view type)
         {"POLYLINE", Kind::polyline}, {"MLINE", Kind::multiline}, {"3DFACE", Kind::face},
         {"SOLID", Kind::solid},       {"TRACE", Kind::solid},     {"CIRCLE", Kind::circle},
         {"ARC", Kind::arc},           {"ELLIPSE", Kind::ellipse}, {"SPLINE", Kind::spline},
-        {"HATCH", Kind::hatch},       {"MESH", Kind::mesh},       {"LIGHT", Kind::light},
-        {"INSERT", Kind::insert},
+        {"HATCH", Kind::hatch},       {"MPOLYGON", Kind::hatch},  {"MESH", Kind::mesh},
+        {"LIGHT", Kind::light},       {"INSERT", Kind::insert},
     };
     const auto found = kinds.find(type);
     return found == kinds.end() ? Kind::other : found->second;

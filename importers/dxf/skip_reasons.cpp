@@ -16,7 +16,6 @@ constexpr TypesOfReason known_types[] = {
      "TEXT MTEXT RTEXT ARCALIGNEDTEXT ATTDEF ATTRIB DIMENSION ARC_DIMENSION LARGE_RADIAL_DIMENSION LEADER MLEADER "
      "MULTILEADER TOLERANCE SHAPE ACAD_TABLE VIEWPORT"},
     {{"a curve without thickness has no area"}, "POINT RAY XLINE HELIX"},
-    {{"filled polygons of maps are not modelled; explode them", true}, "MPOLYGON"},
     {{"solids and surfaces in ACIS form are not modelled; explode them to faces", true},
      "3DSOLID REGION BODY SURFACE EXTRUDEDSURFACE LOFTEDSURFACE REVOLVEDSURFACE SWEPTSURFACE PLANESURFACE "
      "NURBSURFACE"},
