@@ -4,6 +4,7 @@
 #include "importers/dxf/drawing.h"
 #include "importers/dxf/read_tags.h"
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -35,6 +36,8 @@ private:
     void read_header_variable(const std::string& variable);
     void read_blocks();
     void read_block();
+    void read_object();
+    void report_clips();
 
     void read_tables();
     void read_layer();
@@ -72,6 +75,11 @@ private:
     CodePage code_page_;
     NameTable layer_names_, type_names_, block_names_;
     bool has_ended_ = false;
+    struct Clip {
+        std::uint64_t owner, place;
+    };
+    std::vector<Clip> clips_;
+    std::map<std::uint64_t, std::uint64_t> owner_of_dictionary_;
 };
 
 } // namespace lightwell::dxf

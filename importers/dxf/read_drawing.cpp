@@ -55,6 +55,7 @@ Drawing DrawingReader::read()
         else if (is(0, "SECTION"))
             read_section();
     }
+    report_clips();
     if (!has_ended_)
         report_.add(Finding::repaired, tags_.place(tag_.place),
                     "the end mark (EOF) is missing; all sections are whole");
@@ -77,10 +78,13 @@ void DrawingReader::read_section()
             report_.add(Finding::repaired, tags_.place(tag_.place), "one more section ENTITIES; all are read");
         drawing_.model.push_back(read_entities("ENDSEC"));
     }
-    for (; !is(0, "ENDSEC"); advance("section " + name))
-        if (is(0, "SPATIAL_FILTER"))
-            report_.add(Finding::unsupported, tags_.place(tag_.place),
-                        "an insert is clipped (XCLIP); the whole block is shown");
+    while (name == "OBJECTS" && !is(0, "ENDSEC"))
+        if (is(0, "DICTIONARY") || is(0, "SPATIAL_FILTER"))
+            read_object();
+        else
+            advance("section OBJECTS");
+    while (!is(0, "ENDSEC"))
+        advance("section " + name);
 }
 
 void DrawingReader::read_header()

@@ -152,6 +152,36 @@ TEST(DxfBlocks, ThatAreClippedAreReported)
     EXPECT_EQ(imported.report.notes()[0].count, 2u);
 }
 
+TEST(DxfBlocks, ThatAreClippedAreNamedAndCountedBlockByBlock)
+{
+    const auto insert = [](const std::string& handle, const std::string& block) {
+        return " 0 INSERT 5 " + handle + " 2 " + block + " 8 A-DOOR 10 0 20 0 ";
+    };
+    // Each clip is owned by a dictionary that is owned by the dictionary of its insert, among owners of other kinds.
+    const auto clip = [](const std::string& insert_handle, const std::string& first, const std::string& second) {
+        return "0 DICTIONARY 5 " + first + " 330 " + insert_handle + " 3 ACAD_FILTER 360 " + second +
+               " 0 DICTIONARY 5 " + second + " 102 {ACAD_REACTORS 330 FFFF 102 } 330 " + first +
+               " 3 SPATIAL 360 99 0 SPATIAL_FILTER 5 99 102 {ACAD_REACTORS 330 FFFF 102 } 330 " + second +
+               " 10 0 20 0 ";
+    };
+    const std::string blocks = "0 BLOCK 2 DOOR 10 0 20 0 30 0 " + triangle("RED", "", "A") +
+                               " 0 ENDBLK 0 BLOCK 2 GATE 10 0 20 0 30 0 " + triangle("RED", "", "A") + " 0 ENDBLK";
+    std::string text = drawing(blocks, insert("2A", "DOOR") + insert("2B", "GATE") + insert("2C", "DOOR"));
+    text.insert(text.rfind("0\nEOF"), tags("0 SECTION 2 OBJECTS " + clip("2A", "10", "11") + clip("2C", "12", "13") +
+                                           clip("2B", "14", "15") + clip("77", "16", "16") + "0 ENDSEC"));
+    const Imported imported = imported_text(text);
+    std::map<std::string, std::size_t> found;
+    for (const Note& note : imported.report.notes())
+        if (note.finding == Finding::unsupported)
+            found[note.text] = note.count;
+    EXPECT_EQ(found, (std::map<std::string, std::size_t>{
+                         {"an insert is clipped (XCLIP); the whole block \"DOOR\" is shown", 2},
+                         {"an insert is clipped (XCLIP); the whole block \"GATE\" is shown", 1},
+                         {"an insert is clipped (XCLIP); the whole block is shown", 1}}));
+    EXPECT_NE(imported.report.notes()[0].place.find("INSERT \"2A\" on layer \"A-DOOR\""), std::string::npos)
+        << imported.report.notes()[0].place;
+}
+
 TEST(DxfNames, AreDecodedFromCodePagesEscapesAndUtf8)
 {
     struct Case {
