@@ -93,6 +93,11 @@ void add_tradeoff(CLI::App& app, Status& status)
     command.add_option("--threads", options->settings.threads, "0: all processors")
         ->type_name("N")
         ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--peer-time", options->settings.peer_cpu_s,
+                    "CPU seconds after which a run of another program is ended (default 300)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("SECONDS");
     command.add_flag("--no-peers", options->no_peers, "leave other programs out");
     command.footer(examples);
     command.callback([options, &status] { status = tradeoff(*options, std::cout, std::cerr); });

@@ -2,11 +2,13 @@
 
 #include "engine/base/errors.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <sstream>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
@@ -18,12 +20,12 @@ namespace {
 constexpr int cannot_start = 127;
 
 /// In the child, where another thread may have held a lock: nothing here allocates.
-[[noreturn]] void become(char* const* arguments, const char* input, const char* output, rlim_t seconds)
+/// @param err  open for writing
+[[noreturn]] void become(char* const* arguments, const char* input, const char* output, int err, rlim_t seconds)
 {
     const int in = open(input, O_RDONLY);
     const int out = open(output, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    const int err = open("/dev/null", O_WRONLY);
-    if (in < 0 || out < 0 || err < 0)
+    if (in < 0 || out < 0)
         _exit(cannot_start);
     dup2(in, STDIN_FILENO);
     dup2(out, STDOUT_FILENO);
@@ -32,6 +34,22 @@ constexpr int cannot_start = 127;
     setrlimit(RLIMIT_CPU, &limit);
     execvp(arguments[0], arguments);
     _exit(cannot_start);
+}
+
+/// The last line of a file that has text in it, cut to what a table can hold.
+std::string last_line(int file)
+{
+    constexpr off_t most_read = 4096;
+    constexpr std::size_t most_shown = 200;
+    char text[most_read];
+    const off_t size = lseek(file, 0, SEEK_END), from = std::max<off_t>(0, size - most_read);
+    const ssize_t count = size > 0 ? pread(file, text, most_read, from) : 0;
+    std::istringstream lines(std::string(text, static_cast<std::size_t>(std::max<ssize_t>(0, count))));
+    std::string last;
+    for (std::string line; std::getline(lines, line);)
+        if (line.find_first_not_of(" \t\r") != std::string::npos)
+            last = line;
+    return last.substr(0, most_shown);
 }
 
 double seconds_of(const timeval& t)
@@ -66,11 +84,12 @@ ChildResult run_child(const std::vector<std::string>& words, const std::filesyst
     arguments.push_back(nullptr);
     const std::string from = input.empty() ? "/dev/null" : input.string();
     const std::string to = output.empty() ? "/dev/null" : output.string();
-    const pid_t child = fork();
+    const int words_file = memfd_create("error output", 0);
+    const pid_t child = words_file < 0 ? -1 : fork();
     if (child < 0)
         throw InputError{words[0], "cannot be started", "is there memory left for another process?"};
     if (child == 0)
-        become(arguments.data(), from.c_str(), to.c_str(), static_cast<rlim_t>(most_cpu_s) + 1);
+        become(arguments.data(), from.c_str(), to.c_str(), words_file, static_cast<rlim_t>(most_cpu_s) + 1);
     ChildResult result;
     rusage used{};
     int status = 0;
@@ -87,7 +106,11 @@ ChildResult run_child(const std::vector<std::string>& words, const std::filesyst
     result.wall_s = elapsed();
     result.cpu_s = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
     result.status = WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
-    result.timed_out = result.timed_out || result.status == -SIGXCPU || result.status == -SIGKILL;
+    // The limit's last step is a kill too, as is the system's when memory runs out: the time tells them apart.
+    result.timed_out =
+        result.timed_out || result.status == -SIGXCPU || (result.status == -SIGKILL && result.cpu_s >= most_cpu_s);
+    result.last_words = last_line(words_file);
+    close(words_file);
     return result;
 }
 

@@ -11,6 +11,7 @@ struct ChildResult {
     double cpu_s = 0, wall_s = 0;
     int status = 0; ///< of its exit; negative: the signal that ended it
     bool timed_out = false;
+    std::string last_words; ///< last line of its error output, 200 characters at most
 };
 
 /// The program as the PATH has it; empty when it is not there.

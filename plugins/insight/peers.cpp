@@ -13,8 +13,6 @@
 namespace lightwell {
 namespace {
 
-constexpr double most_cpu_s = 300;
-
 /// What its own driver chooses for low, medium and high quality, with six reflections.
 struct Quality {
     const char* name;
@@ -39,12 +37,16 @@ std::string ending(const ChildResult& result)
 {
     if (result.timed_out)
         return fmt::format("ended after {:.0f} s of CPU time", result.cpu_s);
-    return result.status == 0 ? "" : fmt::format("exit status {}", result.status);
+    if (result.status == 0)
+        return "";
+    const std::string how = result.status < 0 ? fmt::format("ended by signal {}", -result.status)
+                                              : fmt::format("exit status {}", result.status);
+    return result.last_words.empty() ? how : how + ": " + result.last_words;
 }
 
 } // namespace
 
-RadiancePeers::RadiancePeers(const Scene& scene)
+RadiancePeers::RadiancePeers(const Scene& scene, double most_cpu_s) : most_cpu_s_(most_cpu_s)
 {
     if (std::getenv("RAYPATH") == nullptr) { // its library stands beside its programs
         const std::filesystem::path library = program_on_path("rtrace").parent_path().parent_path() / "lib";
@@ -91,7 +93,7 @@ PeerRun RadiancePeers::illuminance(const SensorGrid& grid, int quality) const
     }
     std::vector<std::string> words = with_words({"rtrace", "-h", "-w", "-I"}, q.words);
     words.push_back(octree_.string());
-    const ChildResult result = run_child(words, points, found, most_cpu_s);
+    const ChildResult result = run_child(words, points, found, most_cpu_s_);
     run.cpu_s = result.cpu_s;
     run.wall_s = result.wall_s;
     run.failure = ending(result);
@@ -114,7 +116,7 @@ PeerRun RadiancePeers::picture(const View& view, int width, int height, int qual
     words = with_words(words, fmt::format("-x {} -y {} {}", finer * width, finer * height, q.words));
     words.push_back(octree_.string());
     const std::filesystem::path file = folder_ / "found.hdr";
-    const ChildResult result = run_child(words, {}, file, most_cpu_s);
+    const ChildResult result = run_child(words, {}, file, most_cpu_s_);
     run.cpu_s = result.cpu_s;
     run.wall_s = result.wall_s;
     run.failure = ending(result);

@@ -22,7 +22,8 @@ struct PeerRun {
 class RadiancePeers {
 public:
     /// Writes into a folder of its own, which goes with this object.
-    explicit RadiancePeers(const Scene& scene);
+    /// @param most_cpu_s  after which a program is ended
+    RadiancePeers(const Scene& scene, double most_cpu_s);
     ~RadiancePeers();
     RadiancePeers(const RadiancePeers&) = delete;
     RadiancePeers& operator=(const RadiancePeers&) = delete;
@@ -35,6 +36,7 @@ public:
     PeerRun picture(const View& view, int width, int height, int quality) const;
 
 private:
+    double most_cpu_s_;
     std::filesystem::path folder_, octree_;
     std::string absent_;
 };

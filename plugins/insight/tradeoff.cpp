@@ -121,9 +121,10 @@ TradePoint point_of(const PeerRun& run, const TradeReference& reference)
     return point;
 }
 
-void add_peers(const Scene& scene, const Subject& subject, Tradeoff& tradeoff, const Progress& progress)
+void add_peers(const Scene& scene, const Subject& subject, const TradeSettings& settings, Tradeoff& tradeoff,
+               const Progress& progress)
 {
-    const RadiancePeers peers(scene);
+    const RadiancePeers peers(scene, settings.peer_cpu_s);
     if (!peers.absent().empty()) {
         TradePoint point;
         point.program = "Radiance";
@@ -156,7 +157,7 @@ Tradeoff measure(const Scene& scene, const Subject& subject, const TradeSettings
         tradeoff.points.push_back(run_own(scene, subject, settings, tradeoff.reference, runs[i].first, runs[i].second));
     }
     if (settings.peers)
-        add_peers(scene, subject, tradeoff, progress);
+        add_peers(scene, subject, settings, tradeoff, progress);
     choose_settings(tradeoff);
     return tradeoff;
 }

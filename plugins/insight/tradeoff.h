@@ -46,6 +46,7 @@ struct TradeSettings {
     std::vector<double> accuracies = {0.3, 0.1, 0.05, 0.02, 0.01, 0.005};
     double technique_accuracy = 0.05; ///< at which techniques are switched off one by one
     bool peers = true;                ///< run rtrace, rpict where they are on the PATH
+    double peer_cpu_s = 300;          ///< after which one of them is ended
     std::uint64_t seed = 1;
     int threads = 0;
     Preparation preparation = {};

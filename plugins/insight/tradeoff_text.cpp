@@ -15,6 +15,17 @@ std::string chosen_text(const TradePoint& point)
     return text;
 }
 
+/// A field of CSV.
+std::string quoted(const std::string& text)
+{
+    if (text.find_first_of(",\"\n") == std::string::npos)
+        return text;
+    std::string field = "\"";
+    for (const char c : text)
+        field += c == '"' ? "\"\"" : std::string(1, c);
+    return field + "\"";
+}
+
 } // namespace
 
 std::string tradeoff_csv(const Tradeoff& tradeoff)
@@ -28,7 +39,7 @@ std::string tradeoff_csv(const Tradeoff& tradeoff)
                                 p.error.maximum);
         else
             text += ",,,,";
-        text += fmt::format("{},{}\n", chosen_text(p), p.failure);
+        text += fmt::format("{},{}\n", chosen_text(p), quoted(p.failure));
     }
     return text + fmt::format("reference,unbiased {} samples,,{:.4g},,{:.5g},,,,,\n", tradeoff.reference.samples,
                               tradeoff.reference.cpu_s, tradeoff.reference.residual);

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* style = R"(<style>
 body{font:16px/1.5 system-ui,sans-serif;color:#222;background:#fff;margin:0 auto;max-width:1100px;padding:1rem}
 h1{font-size:1.7rem;margin:.5rem 0}h2{font-size:1.3rem;margin:2rem 0 .5rem}
-svg{width:100%;height:auto;display:block}
+svg{width:100%;min-width:36rem;height:auto;display:block}
 .wide{overflow-x:auto}
 table{border-collapse:collapse;font-size:.85rem;white-space:nowrap}
 th,td{padding:.2rem .6rem;border-bottom:1px solid #ddd;text-align:right}
@@ -183,7 +183,9 @@ std::string validation_html(const std::vector<ValidationRow>& rows, const std::s
         "<p>Each row compares a value that the engine found with one recomputed from its formula. It passes when the "
         "deviation is at most the tolerance and three standard errors, and the standard error at most a third of the "
         "tolerance.</p>\n";
-    page += chart_svg(strain_chart(rows)) + chart_svg(found_chart(rows)) + sky_map(rows);
+    for (const Chart& chart : {strain_chart(rows), found_chart(rows)})
+        page += "<div class=\"wide\">" + chart_svg(chart) + "</div>\n";
+    page += sky_map(rows);
     page += row_table(rows);
     return page + "</body></html>\n";
 }

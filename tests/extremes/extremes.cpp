@@ -75,7 +75,7 @@ std::vector<Sensor> base_sensors()
     return {{{0, 0, 0}, {0, 0, 1}}, {{0.7, 0.3, 0}, {0, 0, 1}}, {{2.5, -1, 0.5}, {0, 0, 1}}};
 }
 
-Scene white_box(double reflectance)
+Scene white_box(double reflectance, const Vec3& at)
 {
     const double passed = 1 - reflectance;
     Scene scene;
@@ -84,7 +84,11 @@ Scene white_box(double reflectance)
                           "outside");
     const ModifierId wall = scene.add_material("wall", Trans{Spectrum::grey(1), 0, 0, passed, 0});
     const Point s{4, 4, 3};
-    const auto face = [&](const std::vector<Point>& corners) { scene.root.add_polygon(corners, wall, "wall"); };
+    const auto face = [&](std::vector<Point> corners) {
+        for (Point& p : corners)
+            p += at;
+        scene.root.add_polygon(corners, wall, "wall");
+    };
     face({{0, 0, 0}, {s.x, 0, 0}, {s.x, s.y, 0}, {0, s.y, 0}});
     face({{0, 0, s.z}, {0, s.y, s.z}, {s.x, s.y, s.z}, {s.x, 0, s.z}});
     face({{0, 0, 0}, {0, s.y, 0}, {0, s.y, s.z}, {0, 0, s.z}});
@@ -92,6 +96,28 @@ Scene white_box(double reflectance)
     face({{0, 0, 0}, {0, 0, s.z}, {s.x, 0, s.z}, {s.x, 0, 0}});
     face({{0, s.y, 0}, {s.x, s.y, 0}, {s.x, s.y, s.z}, {0, s.y, s.z}});
     return scene;
+}
+
+double seen_in_furnace(double roughness, double degrees, double& error)
+{
+    Scene scene;
+    scene.root.add_source({{0, 0, 1}, 360}, scene.add_material("glow", Glow{Spectrum::grey(1), 0}), "all_around");
+    constexpr double wide = 1e3;
+    scene.root.add_polygon({{-wide, -wide, 0}, {wide, -wide, 0}, {wide, wide, 0}, {-wide, wide, 0}},
+                           scene.add_material("metal", Metal{Spectrum::grey(1), 1, roughness}), "plate");
+    View view;
+    const double a = degrees * radians_per_degree;
+    view.position = {-std::sin(a), 0, std::cos(a)};
+    view.direction = {std::sin(a), 0, -std::cos(a)};
+    view.up = {0, 1, 0};
+    view.horizontal = view.vertical = 1e-6;
+    PictureSettings settings;
+    settings.width = settings.height = 1;
+    settings.samples = 1 << 14;
+    settings.unbiased = true;
+    const Picture picture = Simulation(std::move(scene)).render(view, settings).picture;
+    error = picture.at("error.G", 0, 0);
+    return picture.at("G", 0, 0);
 }
 
 } // namespace lightwell

@@ -35,7 +35,10 @@ private:
 /// A polygon of a lamp of this luminance, cd/m^2, whose front faces `to`.
 void add_lamp(Scene& scene, std::vector<Point> corners, double luminance, const Point& to);
 /// A closed box that lets diffuse light in through its walls: their own exitance is 1 lx beside this reflectance.
-Scene white_box(double reflectance);
+/// @param at  of its corner
+Scene white_box(double reflectance, const Vec3& at = {});
+/// Radiance that a wide plate of white metal shows under this angle in surroundings of 1; its standard error too.
+double seen_in_furnace(double roughness, double degrees, double& error);
 /// The base scene of the table: a square lamp of 1 m over three sensors.
 std::vector<Point> base_square();
 std::vector<Sensor> base_sensors();

@@ -100,6 +100,11 @@ TEST(ChildRun, TellsTheEndTheOutputAndAProgramThatIsNotThere)
     std::string word;
     std::ifstream(out) >> word;
     EXPECT_EQ(word, "light");
+    const ChildResult telling =
+        run_child({"sh", "-c", "echo first >&2; echo 'no room: 7' >&2; kill -9 $$"}, {}, out, 10);
+    EXPECT_EQ(telling.status, -9);
+    EXPECT_FALSE(telling.timed_out);
+    EXPECT_EQ(telling.last_words, "no room: 7");
     EXPECT_EQ(run_child({"/no/such/program"}, {}, out, 10).status, 127);
     const ChildResult endless = run_child({"sh", "-c", "while :; do :; done"}, {}, out, 0.5);
     EXPECT_TRUE(endless.timed_out);
