@@ -106,9 +106,9 @@ ChildResult run_child(const std::vector<std::string>& words, const std::filesyst
     result.wall_s = elapsed();
     result.cpu_s = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
     result.status = WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
-    // The limit's last step is a kill too, as is the system's when memory runs out: the time tells them apart.
-    result.timed_out =
-        result.timed_out || result.status == -SIGXCPU || (result.status == -SIGKILL && result.cpu_s >= most_cpu_s);
+    // A program may catch the limit's signal and exit; a kill is the limit's last step, but also the system's when
+    // memory runs out: the time tells them apart.
+    result.timed_out = result.timed_out || (result.status != 0 && result.cpu_s >= most_cpu_s);
     result.last_words = last_line(words_file);
     close(words_file);
     return result;

@@ -15,6 +15,13 @@ std::string chosen_text(const TradePoint& point)
     return text;
 }
 
+/// What a line below the plot has room for: long names lose their middle.
+std::string shortened(const std::string& text)
+{
+    constexpr std::size_t most = 44, part = 20;
+    return text.size() <= most ? text : text.substr(0, part) + " ... " + text.substr(text.size() - part);
+}
+
 /// A field of CSV.
 std::string quoted(const std::string& text)
 {
@@ -72,7 +79,8 @@ Chart tradeoff_chart(const Tradeoff& tradeoff, const std::string& title)
     chart.x_label = "CPU time (s)";
     chart.y_label = "RMS error, relative (%)";
     chart.log_x = chart.log_y = true;
-    chart.note = fmt::format("Ringed: the cheapest setting that reached the error written beside it. {}.", tradeoff.of);
+    chart.note = fmt::format("Ringed: the cheapest setting for the error beside it. {}.",
+                             shortened(tradeoff.of));
     ChartSeries own{"Lightwell", {}, true}, without{"one technique off", {}, false};
     std::vector<ChartSeries> others;
     for (const TradePoint& p : tradeoff.points) {
