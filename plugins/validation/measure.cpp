@@ -78,6 +78,14 @@ int first_samples(const Check& check, const ValidationOptions& options)
     return 1 << 12;
 }
 
+/// To a power of two; where samples are many, and their number costs minutes, also to one and a half of one.
+int round_up(unsigned samples)
+{
+    constexpr unsigned many = 1U << 19;
+    const unsigned whole = std::bit_ceil(samples), less = whole / 4 * 3;
+    return static_cast<int>(samples > many && less >= samples ? less : whole);
+}
+
 /// More samples until the standard error is as wanted, or too dear.
 Measurement refine(const Simulation& simulation, const Check& check, double wanted_error,
                    const ValidationOptions& options)
@@ -92,7 +100,7 @@ Measurement refine(const Simulation& simulation, const Check& check, double want
             return found;
         const double ratio = found.error / (aim * wanted_error);
         const double wanted = samples * std::clamp(ratio * ratio, 2.0, 64.0);
-        samples = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::min<double>(wanted, most))));
+        samples = round_up(static_cast<unsigned>(std::min<double>(wanted, most)));
     }
 }
 
