@@ -79,8 +79,7 @@ Chart tradeoff_chart(const Tradeoff& tradeoff, const std::string& title)
     chart.x_label = "CPU time (s)";
     chart.y_label = "RMS error, relative (%)";
     chart.log_x = chart.log_y = true;
-    chart.note = fmt::format("Ringed: the cheapest setting for the error beside it. {}.",
-                             shortened(tradeoff.of));
+    chart.note = fmt::format("Ringed: the cheapest setting for the error beside it. {}.", shortened(tradeoff.of));
     ChartSeries own{"Lightwell", {}, true}, without{"one technique off", {}, false};
     std::vector<ChartSeries> others;
     for (const TradePoint& p : tradeoff.points) {
