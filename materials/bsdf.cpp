@@ -45,12 +45,12 @@ std::optional<BsdfSample> sample_of(const ThinGlass& glass, Direction to_viewer,
     return mirror_or_pass(to_viewer, choice, r, t, mirrored_choice_of(glass, to_viewer), -to_viewer, true);
 }
 
-std::optional<BsdfSample> sample_of(const Mirror& mirror, Direction to_viewer)
+/// Models that scatter in lobes of their own, beside those that mirror or pass.
+template <class Model>
+concept Scattering = requires(const Model& m, Direction d)
 {
-    if (mirror.reflectance.is_black())
-        return {};
-    return BsdfSample{mirrored(to_viewer), mirror.reflectance, 0, true, false};
-}
+    m.value_per_sr(d, d, LobeSet::all);
+};
 
 Lobes delta_lobes(bool transparent_to_shadows)
 {
@@ -62,56 +62,86 @@ Lobes delta_lobes(bool transparent_to_shadows)
 
 } // namespace
 
-Bsdf::Model Bsdf::model_of(const Material& material, bool from_front) noexcept
+Bsdf::Model Bsdf::model_of(const Material& material, bool from_front, const Frame& frame) noexcept
 {
     // Hartmann's constant enters through the index at 500 nm, the mean wavelength; colours are not spread.
     constexpr double mean_wavelength_nm = 500;
-    return std::visit(Overloaded{[](const Plastic& m) -> Model { return Layered(m); },
-                                 [](const Metal& m) -> Model { return Layered(m); },
-                                 [](const Trans& m) -> Model { return Layered(m); },
-                                 [=](const Dielectric& m) -> Model {
-                                     return DielectricBoundary(m.index + m.hartmann / mean_wavelength_nm, from_front);
-                                 },
-                                 [](const Glass& m) -> Model { return ThinGlass(m.transmissivity, m.index); },
-                                 [](const Mirror& m) -> Model { return m; },
-                                 [](const auto&) -> Model { return Black{}; }},
-                      material);
+    return std::visit(
+        Overloaded{
+            [](const Plastic& m) -> Model { return Layered(m); }, [](const Metal& m) -> Model { return Layered(m); },
+            [](const Trans& m) -> Model { return Layered(m); },
+            [=](const Dielectric& m) -> Model {
+                return DielectricBoundary(m.index + m.hartmann / mean_wavelength_nm, from_front);
+            },
+            [](const Glass& m) -> Model { return ThinGlass(m.transmissivity, m.index); },
+            [](const Mirror& m) -> Model { return OnlyMirror{m.reflectance}; },
+            [](const Brushed& m) -> Model { return Layered(m); },
+            [](const Ashikhmin& m) -> Model { return AshikhminScattering(m); },
+            [=](const Interface& m) -> Model { return DielectricBoundary(m.inner_index / m.outer_index, from_front); },
+            [&](const Functional& m) -> Model { return FunctionalScattering(m, from_front, frame); },
+            [=](const Measured& m) -> Model { return MeasuredScattering(m, from_front); },
+            [=](const Wgmd& m) -> Model { return Layered(m, from_front); },
+            [](const Mist& m) -> Model { return HazeScattering(m.eccentricity); },
+            [](const auto&) -> Model { return Black{}; }},
+        material);
 }
 
-Bsdf::Bsdf(const Material& material, bool from_front) noexcept : model_(model_of(material, from_front))
+Bsdf::Bsdf(const Material& material, bool from_front, const Frame& frame) noexcept
+    : model_(model_of(material, from_front, frame))
 {
-    lobes_ = std::visit(Overloaded{[](const Black&) { return Lobes{}; }, [](const Layered& m) { return m.lobes(); },
+    lobes_ = std::visit(Overloaded{[](const Black&) { return Lobes{}; },
                                    [](const DielectricBoundary& m) { return delta_lobes(m.straight()); },
                                    [](const ThinGlass& m) { return delta_lobes(!m.opaque()); },
-                                   [](const Mirror&) { return delta_lobes(false); }},
+                                   [](const OnlyMirror&) { return delta_lobes(false); },
+                                   [](const auto& m) { return m.lobes(); }},
                         model_);
 }
 
 Spectrum Bsdf::value_per_sr(Direction to_viewer, Direction to_light, LobeSet set) const noexcept
 {
-    const auto* layered = std::get_if<Layered>(&model_);
-    return layered ? layered->value_per_sr(to_viewer, to_light, set) : Spectrum{};
+    return std::visit(
+        [&](const auto& m) -> Spectrum {
+            if constexpr (Scattering<decltype(m)>)
+                return m.value_per_sr(to_viewer, to_light, set);
+            else
+                return {};
+        },
+        model_);
 }
 
 double Bsdf::density_per_sr(Direction to_viewer, Direction to_light, LobeSet set) const noexcept
 {
-    const auto* layered = std::get_if<Layered>(&model_);
-    return layered ? layered->density_per_sr(to_viewer, to_light, set) : 0;
+    return std::visit(
+        [&](const auto& m) -> double {
+            if constexpr (Scattering<decltype(m)>)
+                return m.density_per_sr(to_viewer, to_light, set);
+            else
+                return 0;
+        },
+        model_);
 }
 
 std::optional<BsdfSample> Bsdf::sample(Direction to_viewer, double choice, UnitSquare u, LobeSet set) const noexcept
 {
     if (!(to_viewer.z > 0))
         return {};
-    const bool scatters_diffusely = std::holds_alternative<Layered>(model_);
-    if (set == LobeSet::diffuse && !scatters_diffusely)
-        return {};
     using Sample = std::optional<BsdfSample>;
-    return std::visit(Overloaded{[](const Black&) -> Sample { return {}; },
-                                 [&](const Layered& m) -> Sample { return m.sample(to_viewer, choice, u, set); },
-                                 [&](const Mirror& m) -> Sample { return sample_of(m, to_viewer); },
-                                 [&](const auto& m) -> Sample { return sample_of(m, to_viewer, choice); }},
-                      model_);
+    return std::visit(
+        [&](const auto& m) -> Sample {
+            using Kind = std::decay_t<decltype(m)>;
+            if constexpr (Scattering<Kind>)
+                return m.sample(to_viewer, choice, u, set);
+            else if constexpr (std::is_same_v<Kind, Black>)
+                return {};
+            else if (set == LobeSet::diffuse)
+                return {};
+            else if constexpr (std::is_same_v<Kind, OnlyMirror>)
+                return m.reflectance.is_black() ? Sample{}
+                                                : BsdfSample{mirrored(to_viewer), m.reflectance, 0, true, false};
+            else
+                return sample_of(m, to_viewer, choice);
+        },
+        model_);
 }
 
 double Bsdf::mirrored_choice(Direction to_viewer) const noexcept
@@ -128,13 +158,17 @@ Spectrum Bsdf::straight_transmittance(Direction to_viewer) const noexcept
 {
     if (!(to_viewer.z > 0))
         return {};
-    return std::visit(Overloaded{[&](const Layered& m) { return m.straight_transmittance(to_viewer); },
-                                 [&](const ThinGlass& m) { return m.transmittance(to_viewer.z); },
+    return std::visit(Overloaded{[&](const ThinGlass& m) { return m.transmittance(to_viewer.z); },
                                  [&](const DielectricBoundary& m) {
                                      return m.straight() ? Spectrum::grey(m.radiance_transmittance(to_viewer.z))
                                                          : Spectrum{};
                                  },
-                                 [](const auto&) { return Spectrum{}; }},
+                                 [&](const auto& m) {
+                                     if constexpr (requires { m.straight_transmittance(to_viewer); })
+                                         return m.straight_transmittance(to_viewer);
+                                     else
+                                         return Spectrum{};
+                                 }},
                       model_);
 }
 

@@ -1,9 +1,14 @@
 #pragma once
 
+#include "engine/base/frame.h"
+#include "materials/ashikhmin.h"
 #include "materials/bsdf_sample.h"
 #include "materials/dielectric.h"
+#include "materials/functional.h"
+#include "materials/haze.h"
 #include "materials/layered.h"
 #include "materials/material.h"
+#include "materials/measured_scattering.h"
 #include "materials/thin_glass.h"
 
 #include <optional>
@@ -11,13 +16,15 @@
 
 namespace lightwell {
 
-/// How one point of a surface scatters light. Numbers only: made at every hit, without taking memory.
+/// How one point of a surface scatters light: made at every hit, without taking memory. The material must outlive it;
+/// one with functions must have been put in place (materials/placed.h).
 /// Frame  local: z = normal on the viewer's side, so to_viewer.z > 0; to_light.z < 0 is transmission
 class Bsdf {
 public:
     /// Emitters do not reflect.
-    /// @param from_front  the viewer is on the side of the geometric normal (matters for Dielectric only)
-    Bsdf(const Material& material, bool from_front) noexcept;
+    /// @param from_front  the viewer is on the side of the geometric normal
+    /// @param frame       of the surface in the world, for functions that ask for directions there
+    Bsdf(const Material& material, bool from_front, const Frame& frame = {}) noexcept;
 
     /// BSDF value without the cosine, 1/sr; delta lobes excluded; zero where to_viewer.z <= 0.
     Spectrum value_per_sr(Direction to_viewer, Direction to_light, LobeSet set = LobeSet::all) const noexcept;
@@ -37,8 +44,12 @@ public:
 
 private:
     struct Black {};
-    using Model = std::variant<Black, Layered, DielectricBoundary, ThinGlass, Mirror>;
-    static Model model_of(const Material& material, bool from_front) noexcept;
+    struct OnlyMirror {
+        Spectrum reflectance;
+    };
+    using Model = std::variant<Black, Layered, DielectricBoundary, ThinGlass, OnlyMirror, AshikhminScattering,
+                               FunctionalScattering, MeasuredScattering, HazeScattering>;
+    static Model model_of(const Material& material, bool from_front, const Frame& frame) noexcept;
 
     Model model_;
     Lobes lobes_;

@@ -2,7 +2,6 @@
 
 #include "materials/diffuse.h"
 #include "materials/mirror.h"
-#include "materials/ward.h"
 
 #include <cmath>
 
@@ -22,11 +21,18 @@ constexpr double mean_grazing_gain = 0.0552588;
 
 } // namespace
 
+Layered::Widths Layered::widths(double roughness_u, double roughness_v) noexcept
+{
+    // One width alone cannot be 0: a highlight that is a line is never met.
+    const bool smooth = std::fmax(roughness_u, roughness_v) <= smooth_roughness;
+    return {std::fmax(roughness_u, smooth_roughness), std::fmax(roughness_v, smooth_roughness), smooth};
+}
+
 Layered::Layered(Spectrum colour, double specularity, double roughness, double transmission,
                  double transmitted_specular, bool tinted_highlight) noexcept
-    : colour_(colour), specularity_(specularity), roughness_(roughness), transmission_(transmission),
-      transmitted_specular_(transmitted_specular), tinted_highlight_(tinted_highlight),
-      smooth_(roughness <= smooth_roughness), has_fresnel_(smooth_ && specularity >= smallest_fresnel)
+    : colour_(colour), specularity_(specularity), transmission_(transmission),
+      transmitted_specular_(transmitted_specular), reflected_(widths(roughness, roughness)), passed_(reflected_),
+      tinted_highlight_(tinted_highlight), has_fresnel_(reflected_.smooth && specularity >= smallest_fresnel)
 {
 }
 
@@ -39,6 +45,40 @@ Layered::Layered(const Trans& t) noexcept
 {
 }
 
+Layered::Layered(const Brushed& b) noexcept
+    : Layered(b.colour, b.specularity, 0, b.transmission, b.transmitted_specular, b.kind == Brushed::Kind::metal)
+{
+    reflected_ = passed_ = widths(b.roughness_u, b.roughness_v);
+    has_fresnel_ = false; // as in Radiance: none of the brushed materials has a coating
+    brushed_ = true;
+}
+
+Layered::Layered(const Wgmd& w, bool from_front) noexcept
+    : reflected_(widths(w.reflected_u, w.reflected_v)), passed_(widths(w.passed_u, w.passed_v)), brushed_(true),
+      fixed_(true)
+{
+    fixed_parts_ = {from_front ? w.front : w.back, w.through * w.colours[2], w.colours[0] * w.reflected,
+                    w.colours[1] * w.passed};
+    const Spectrum sum = fixed_parts_.diffuse_reflectance + fixed_parts_.diffuse_transmittance +
+                         fixed_parts_.specular_reflectance + fixed_parts_.specular_transmittance;
+    if (const double most = sum.max(); most > 1) // the numbers and the functions together would create light
+        for (Spectrum* part : {&fixed_parts_.diffuse_reflectance, &fixed_parts_.diffuse_transmittance,
+                               &fixed_parts_.specular_reflectance, &fixed_parts_.specular_transmittance})
+            *part = *part / most;
+}
+
+ScatteredLobe Layered::passed_lobe(Direction to_viewer, Direction to_light) const noexcept
+{
+    return brushed_ ? BrushedTransmission(passed_.u, passed_.v).scattered(to_viewer, to_light)
+                    : RoughTransmission(passed_.u).scattered(to_viewer, to_light);
+}
+
+Vec3 Layered::passed_direction(Direction to_viewer, UnitSquare u) const noexcept
+{
+    return brushed_ ? BrushedTransmission(passed_.u, passed_.v).sample(to_viewer, u)
+                    : RoughTransmission(passed_.u).sample(to_viewer, u);
+}
+
 double Layered::fresnel_increase(double cosine) const noexcept
 {
     return has_fresnel_ ? grazing_gain(std::fabs(cosine)) : 0;
@@ -46,6 +86,14 @@ double Layered::fresnel_increase(double cosine) const noexcept
 
 Layered::Parts Layered::parts(double cos_viewer, LobeSet set) const noexcept
 {
+    if (fixed_) {
+        Parts found = fixed_parts_;
+        if (set == LobeSet::specular)
+            found.diffuse_reflectance = found.diffuse_transmittance = {};
+        if (set == LobeSet::diffuse)
+            found.specular_reflectance = found.specular_transmittance = {};
+        return found;
+    }
     const double gain = fresnel_increase(cos_viewer);
     const double below = (1 - specularity_) * (1 - gain); // share that enters
     const double passing = below * transmission_;
@@ -83,15 +131,13 @@ Layered::Scattered Layered::scattered(const Parts& parts, const Shares& shares, 
     const double diffuse_share = reflected ? shares.diffuse_reflection : shares.diffuse_transmission;
     Scattered sum{(reflected ? parts.diffuse_reflectance : parts.diffuse_transmittance) * (entering / pi),
                   diffuse_share * Diffuse::density_per_sr(std::fabs(to_light.z))};
-    if (smooth_)
-        return sum;
-    if (reflected && shares.specular_reflection > 0) {
-        const ScatteredLobe lobe = Ward(roughness_).scattered(to_viewer, to_light);
+    if (reflected && shares.specular_reflection > 0 && !reflected_.smooth) {
+        const ScatteredLobe lobe = Ward(reflected_.u, reflected_.v).scattered(to_viewer, to_light);
         sum.value_per_sr += parts.specular_reflectance * lobe.value_per_sr;
         sum.density_per_sr += shares.specular_reflection * lobe.density_per_sr;
     }
-    if (!reflected && shares.specular_transmission > 0) {
-        const ScatteredLobe lobe = RoughTransmission(roughness_).scattered(to_viewer, to_light);
+    if (!reflected && shares.specular_transmission > 0 && !passed_.smooth) {
+        const ScatteredLobe lobe = passed_lobe(to_viewer, to_light);
         sum.value_per_sr += parts.specular_transmittance * lobe.value_per_sr;
         sum.density_per_sr += shares.specular_transmission * lobe.density_per_sr;
     }
@@ -118,16 +164,16 @@ std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, Un
     const Shares share = shares(wanted);
     Direction to_light;
     if (choice < share.specular_reflection) {
-        if (smooth_)
+        if (reflected_.smooth)
             return BsdfSample{mirrored(to_viewer), wanted.specular_reflectance / share.specular_reflection, 0, true,
                               false};
-        to_light = Ward(roughness_).sample(to_viewer, u);
+        to_light = Ward(reflected_.u, reflected_.v).sample(to_viewer, u);
         if (!(to_light.z > 0))
             return {}; // lost below the surface
     } else if ((choice -= share.specular_reflection) < share.specular_transmission) {
-        if (smooth_)
+        if (passed_.smooth)
             return BsdfSample{-to_viewer, wanted.specular_transmittance / share.specular_transmission, 0, true, true};
-        to_light = RoughTransmission(roughness_).sample(to_viewer, u);
+        to_light = passed_direction(to_viewer, u);
         if (!(to_light.z < 0))
             return {};
     } else {
@@ -147,7 +193,8 @@ std::optional<BsdfSample> Layered::sample(Direction to_viewer, double choice, Un
 
 Spectrum Layered::straight_transmittance(Direction to_viewer) const noexcept
 {
-    return smooth_ && to_viewer.z > 0 ? parts(to_viewer.z, LobeSet::specular).specular_transmittance : Spectrum{};
+    return passed_.smooth && to_viewer.z > 0 ? parts(to_viewer.z, LobeSet::specular).specular_transmittance
+                                             : Spectrum{};
 }
 
 Lobes Layered::lobes() const noexcept
@@ -159,10 +206,14 @@ Lobes Layered::lobes() const noexcept
     Lobes lobes;
     lobes.diffuse_reflectance = along_normal.diffuse_reflectance * entering;
     lobes.diffuse_transmittance = along_normal.diffuse_transmittance * entering;
-    lobes.glossy = !smooth_ && (mirror_like || passes);
-    lobes.glossy_width_rad = lobes.glossy ? roughness_ : 0;
-    lobes.delta = smooth_ && (mirror_like || passes);
-    lobes.transparent_to_shadows = smooth_ && passes;
+    const bool rough_highlight = mirror_like && !reflected_.smooth, rough_passage = passes && !passed_.smooth;
+    lobes.glossy = rough_highlight || rough_passage;
+    if (rough_highlight)
+        lobes.glossy_width_rad = std::fmin(reflected_.u, reflected_.v);
+    else if (rough_passage)
+        lobes.glossy_width_rad = std::fmin(passed_.u, passed_.v);
+    lobes.delta = (mirror_like && reflected_.smooth) || (passes && passed_.smooth);
+    lobes.transparent_to_shadows = passed_.smooth && passes;
     return lobes;
 }
 

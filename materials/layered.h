@@ -3,12 +3,14 @@
 #include "engine/base/spectrum.h"
 #include "materials/bsdf_sample.h"
 #include "materials/material.h"
+#include "materials/ward.h"
 
 #include <optional>
 
 namespace lightwell {
 
-/// Plastic, Metal and Trans: a diffuse part under a specular one, and for Trans the same two on the far side.
+/// Plastic, Metal and Trans: a diffuse part under a specular one, and for Trans the same two on the far side; the
+/// same with two roughnesses (Brushed), and Wgmd, which names the four parts itself.
 ///
 /// Diffuse reflection and transmission and the transmitted highlight are tinted by the colour; the reflected highlight
 /// is white, for Metal tinted. Roughness up to smooth_roughness is a mirror. A smooth surface of at least
@@ -23,6 +25,9 @@ public:
     explicit Layered(const Plastic& plastic) noexcept;
     explicit Layered(const Metal& metal) noexcept;
     explicit Layered(const Trans& trans) noexcept;
+    explicit Layered(const Brushed& brushed) noexcept;
+    /// @param from_front  the viewer is on the side of the normal
+    Layered(const Wgmd& wgmd, bool from_front) noexcept;
 
     Spectrum value_per_sr(Direction to_viewer, Direction to_light, LobeSet set = LobeSet::all) const noexcept;
     double density_per_sr(Direction to_viewer, Direction to_light, LobeSet set = LobeSet::all) const noexcept;
@@ -41,8 +46,16 @@ private:
     struct Shares {
         double diffuse_reflection = 0, diffuse_transmission = 0, specular_reflection = 0, specular_transmission = 0;
     };
+    /// Widths of a specular lobe along x and y.
+    struct Widths {
+        double u = 0, v = 0;
+        bool smooth = true;
+    };
+    static Widths widths(double roughness_u, double roughness_v) noexcept;
     Layered(Spectrum colour, double specularity, double roughness, double transmission, double transmitted_specular,
             bool tinted_highlight) noexcept;
+    ScatteredLobe passed_lobe(Direction to_viewer, Direction to_light) const noexcept;
+    Vec3 passed_direction(Direction to_viewer, UnitSquare u) const noexcept;
     double fresnel_increase(double cosine) const noexcept;
     /// Lobes outside the set are black.
     Parts parts(double cos_viewer, LobeSet set) const noexcept;
@@ -56,8 +69,12 @@ private:
                         Direction to_light) const noexcept;
 
     Spectrum colour_;
-    double specularity_, roughness_, transmission_, transmitted_specular_;
-    bool tinted_highlight_, smooth_, has_fresnel_;
+    double specularity_ = 0, transmission_ = 0, transmitted_specular_ = 0;
+    Widths reflected_, passed_;
+    bool tinted_highlight_ = false, has_fresnel_ = false;
+    bool brushed_ = false; ///< the transmitted lobe is BrushedTransmission
+    bool fixed_ = false;   ///< the parts are `fixed_parts_`, whatever the angle
+    Parts fixed_parts_;
 };
 
 /// Roughness whose square is below 1e-6, as in Radiance: the highlight is then narrower than any pixel.

@@ -11,6 +11,9 @@
 namespace lightwell {
 namespace {
 
+/// A highlight of this power is narrower than 0.01 degrees.
+constexpr double largest_power = 1e9;
+
 /// The checks of one material, each with the name it is called by in messages.
 class Checks {
 public:
@@ -130,6 +133,80 @@ void check(const Checks& checks, const Spotlight& m)
         checks.fail("length of the aim", 0, "> 0", "give the direction of the beam");
 }
 
+void check(const Checks& checks, const Brushed& m)
+{
+    checks.fractions("colour", m.colour);
+    checks.fraction("specularity", m.specularity);
+    checks.fraction("roughness along the grain", m.roughness_u);
+    checks.fraction("roughness across the grain", m.roughness_v);
+    checks.fraction("transmission", m.transmission);
+    checks.fraction("transmitted specular share", m.transmitted_specular);
+}
+
+void check(const Checks& checks, const Ashikhmin& m)
+{
+    checks.fractions("diffuse reflectance", m.diffuse);
+    checks.fractions("specular reflectance", m.specular);
+    for (const double power : {m.power_u, m.power_v})
+        if (!(power >= 0 && power <= largest_power))
+            checks.fail("power of the highlight", power, "in [0, 1e9]", "the higher, the narrower");
+}
+
+void check(const Checks& checks, const Interface& m)
+{
+    checks.fractions("transmission per metre inside", m.inner_transmission_per_m);
+    checks.fractions("transmission per metre outside", m.outer_transmission_per_m);
+    checks.index(m.inner_index);
+    checks.index(m.outer_index);
+}
+
+/// Diffuse parts of the two sides, which share the light with what passes.
+void check_sides(const Checks& checks, const Spectrum& front, const Spectrum& back, const Spectrum& through)
+{
+    checks.fractions("diffuse reflectance of the front", front);
+    checks.fractions("diffuse reflectance of the back", back);
+    checks.fractions("diffuse transmittance", through);
+    checks.fractions("diffuse reflectance of the front and transmittance together", front + through);
+    checks.fractions("diffuse reflectance of the back and transmittance together", back + through);
+}
+
+void check(const Checks& checks, const Functional& m)
+{
+    checks.fractions("colour", m.colour);
+    checks.fraction("specularity", m.specularity);
+    checks.fraction("transmission", m.transmission);
+    checks.fraction("transmitted specular share", m.transmitted_specular);
+    check_sides(checks, m.front, m.back, m.through);
+}
+
+void check(const Checks& checks, const Measured& m)
+{
+    check_sides(checks, m.front, m.back, m.through);
+}
+
+void check(const Checks& checks, const Wgmd& m)
+{
+    check_sides(checks, m.front, m.back, m.through);
+}
+
+void check(const Checks&, const Prism&) {}
+
+void check(const Checks& checks, const Antimatter& m)
+{
+    if (m.erased.empty())
+        checks.fail("number of modifiers", 0, "at least 1", "the first is what cut faces are made of, or void");
+}
+
+void check(const Checks& checks, const Mist& m)
+{
+    checks.fractions("albedo", m.albedo);
+    for (int channel = 0; channel < 3; ++channel)
+        if (!(m.extinction_per_m[channel] >= 0 && std::isfinite(m.extinction_per_m[channel])))
+            checks.fail("extinction per metre", m.extinction_per_m[channel], ">= 0 and finite", "");
+    if (!(m.eccentricity > -1 && m.eccentricity < 1))
+        checks.fail("eccentricity", m.eccentricity, "in (-1, 1)", "0 scatters evenly, 0.9 mostly forwards");
+}
+
 /// Mean over diffuse light, 2 times the integral of f(cos) cos, by the midpoint rule: good to a few parts in 1000.
 template <class Reflectance>
 Spectrum under_diffuse_light(Reflectance at_cosine)
@@ -175,8 +252,41 @@ Spectrum typical(const Mirror& m)
     return m.reflectance;
 }
 
-template <class Emitter>
-Spectrum typical(const Emitter&)
+Spectrum typical(const Brushed& m)
+{
+    const Spectrum highlight = m.kind == Brushed::Kind::metal ? m.colour : Spectrum::grey(1);
+    return m.colour * ((1 - m.specularity) * (1 - m.transmission)) + highlight * m.specularity;
+}
+
+Spectrum typical(const Ashikhmin& m)
+{
+    return m.specular + m.diffuse * (Spectrum::grey(1) - m.specular);
+}
+
+Spectrum typical(const Interface& m)
+{
+    const DielectricBoundary boundary(m.inner_index / m.outer_index, true);
+    return under_diffuse_light([&](double cosine) { return Spectrum::grey(boundary.reflectance(cosine)); });
+}
+
+Spectrum typical(const Functional& m)
+{
+    return m.kind == Functional::Kind::BRTDfunc ? m.front : m.colour * (1 - m.transmission * (1 - m.specularity));
+}
+
+Spectrum typical(const Measured& m)
+{
+    return m.front;
+}
+
+Spectrum typical(const Wgmd& m)
+{
+    return m.front;
+}
+
+/// Emitters, and what is no surface.
+template <class Other>
+Spectrum typical(const Other&)
 {
     return {};
 }
@@ -190,6 +300,13 @@ Spectrum within(const Spectrum& s, double most)
 template <class M>
 void multiply(M& material, const Spectrum& colour)
 {
+    if constexpr (requires { material.through; }) {
+        material.front = within(material.front * colour, 1);
+        material.back = within(material.back * colour, 1);
+        material.through = within(material.through * colour, 1);
+    }
+    if constexpr (requires { material.diffuse; })
+        material.diffuse = within(material.diffuse * colour, 1);
     if constexpr (requires { material.colour; })
         material.colour = within(material.colour * colour, 1);
     else if constexpr (requires { material.transmissivity; })
@@ -210,10 +327,24 @@ void validate_material(const Material& material, const std::string& place)
 
 std::string type_name(const Material& material)
 {
-    // In the order of the alternatives of Material.
-    static constexpr const char* names[] = {"plastic", "metal", "trans", "dielectric", "glass",
-                                            "mirror",  "light", "illum", "glow",       "spotlight"};
+    // In the order of the alternatives of Material; some have more than one word.
+    static constexpr const char* names[] = {
+        "plastic", "metal",  "trans",     "dielectric", "glass", "mirror",   "light", "illum",      "glow", "spotlight",
+        "",        "ashik2", "interface", "",           "",      "WGMDfunc", "",      "antimatter", "mist"};
     static_assert(std::size(names) == std::variant_size_v<Material>);
+    if (const auto* brushed = std::get_if<Brushed>(&material)) {
+        static constexpr const char* kinds[] = {"plastic2", "metal2", "trans2"};
+        return kinds[static_cast<int>(brushed->kind)];
+    }
+    if (const auto* functional = std::get_if<Functional>(&material)) {
+        static constexpr const char* kinds[] = {"plasfunc", "metfunc",   "transfunc", "plasdata",
+                                                "metdata",  "transdata", "BRTDfunc"};
+        return kinds[static_cast<int>(functional->kind)];
+    }
+    if (const auto* measured = std::get_if<Measured>(&material))
+        return measured->passes_straight ? "aBSDF" : "BSDF";
+    if (const auto* prism = std::get_if<Prism>(&material))
+        return prism->rays == 2 ? "prism2" : "prism1";
     return names[material.index()];
 }
 
@@ -227,6 +358,24 @@ bool is_emitter(const Material& material) noexcept
             };
         },
         material);
+}
+
+std::vector<std::string> named_modifiers(const Material& material)
+{
+    std::vector<std::string> names = std::visit(
+        [](const auto& m) -> std::vector<std::string> {
+            if constexpr (requires { m.alternate; })
+                return {m.alternate};
+            else if constexpr (requires { m.tints; })
+                return {std::begin(m.tints), std::end(m.tints)};
+            else if constexpr (requires { m.erased; })
+                return m.erased;
+            else
+                return {};
+        },
+        material);
+    std::erase_if(names, [](const std::string& name) { return name.empty() || name == "void"; });
+    return names;
 }
 
 Spectrum emitted_radiance(const Material& material) noexcept

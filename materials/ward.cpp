@@ -11,11 +11,15 @@ namespace {
 /// Below this height of the half vector its fourth power leaves the range of numbers; no light travels so flat.
 constexpr double lowest_half_height = 1e-70;
 
+double squared(double x)
+{
+    return x * x;
+}
+
 /// exp(-tan^2 / roughness^2) of the facet that mirrors one direction into the other; half is not normalized.
 double facet_share(const Vec3& half, double u, double v)
 {
-    const double x = half.x / u, y = half.y / v;
-    return std::exp(-(x * x + y * y) / (half.z * half.z));
+    return std::exp(-(squared(half.x / u) + squared(half.y / v)) / squared(half.z));
 }
 
 } // namespace
@@ -38,6 +42,24 @@ Direction Ward::sample(Direction to_viewer, UnitSquare u) const noexcept
     const Vec3 half{u_ * slope * std::cos(azimuth), v_ * slope * std::sin(azimuth), 1};
     const Vec3 mirrored = half * (2 * dot(to_viewer, half) / dot(half, half)) - to_viewer;
     return normalized(mirrored);
+}
+
+ScatteredLobe BrushedTransmission::scattered(Direction to_viewer, Direction to_light) const noexcept
+{
+    if (!(to_viewer.z > 0 && to_light.z < 0))
+        return {};
+    const Vec3 moved = to_viewer + to_light;
+    const double lobe = std::exp(-(squared(moved.x / u_) + squared(moved.y / v_))) / (pi * u_ * v_);
+    return {lobe, lobe * -to_light.z};
+}
+
+Vec3 BrushedTransmission::sample(Direction to_viewer, UnitSquare u) const noexcept
+{
+    const double radius = std::sqrt(-std::log1p(-u.u));
+    const double azimuth = 2 * pi * u.v;
+    const double x = u_ * radius * std::cos(azimuth) - to_viewer.x, y = v_ * radius * std::sin(azimuth) - to_viewer.y;
+    const double z2 = 1 - x * x - y * y;
+    return z2 > 0 ? Vec3{x, y, -std::sqrt(z2)} : Vec3{};
 }
 
 ScatteredLobe RoughTransmission::scattered(Direction to_viewer, Direction to_light) const noexcept

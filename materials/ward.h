@@ -44,4 +44,20 @@ private:
     double roughness_;
 };
 
+/// Light that passes a rough sheet with two roughnesses. In the plane of the sheet the direction is displaced by a
+/// Gaussian; what would leave that plane is lost.
+/// The lobe is reciprocal, and never gives more light than it gets: its sample has the weight 1. Along the normal it
+/// is the one of other programs; at grazing angles it is wider across.
+class BrushedTransmission {
+public:
+    BrushedTransmission(double roughness_u, double roughness_v) noexcept : u_(roughness_u), v_(roughness_v) {}
+    /// For a transmittance of 1; zero unless to_light.z < 0 < to_viewer.z.
+    ScatteredLobe scattered(Direction to_viewer, Direction to_light) const noexcept;
+    /// Not a unit vector, but 0, where the light is lost.
+    Vec3 sample(Direction to_viewer, UnitSquare u) const noexcept;
+
+private:
+    double u_, v_;
+};
+
 } // namespace lightwell

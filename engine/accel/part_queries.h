@@ -128,4 +128,8 @@ void describe(const Level& level, Hit& hit, const MeshGeometry* mesh);
 void prepare_part(PartQueries& queries, const std::vector<Box>& prototype_boxes);
 void build_part(PartQueries& queries, RTCDeviceTy* device);
 
+/// Straight transmittance of a surface that a shadow ray has met.
+/// @param direction  of the ray, unit
+Spectrum passage(const Hit& hit, const Direction& direction, double distance_m, const PartQueries& queries) noexcept;
+
 } // namespace lightwell

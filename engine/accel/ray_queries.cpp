@@ -1,9 +1,11 @@
 #include "engine/accel/ray_queries.h"
 
 #include "engine/accel/part_queries.h"
+#include "engine/accel/volumes.h"
 #include "engine/base/random.h"
 #include "engine/base/tally.h"
 #include "materials/bsdf.h"
+#include "materials/placed.h"
 
 #include <embree3/rtcore.h>
 
@@ -33,10 +35,11 @@ struct RayQueries::State {
     std::vector<std::uint8_t> see_through;
     std::vector<const Material*> materials;
     VariedMaterials varied;
+    Volumes volumes;
     std::vector<PartQueries> prototypes;
     PartQueries root;
 
-    explicit State(const Scene& scene) : varied(scene) {}
+    explicit State(const Scene& scene) : varied(scene), volumes(scene) {}
     ~State()
     {
         for (PartQueries& queries : prototypes)
@@ -70,7 +73,8 @@ RayQueries::RayQueries(const Scene& scene) : state_(std::make_unique<State>(scen
         state.materials.push_back(resolve(scene, id).material);
         bool see_through = false;
         for (const Material* material : state.varied.possible(id))
-            see_through |= material == nullptr || std::holds_alternative<Illum>(*material) ||
+            see_through |= material == nullptr || stands_for_geometry(*material) ||
+                           std::holds_alternative<Illum>(*material) ||
                            Bsdf(*material, true).lobes().transparent_to_shadows;
         state.see_through.push_back(state.materials.back() != nullptr && see_through);
     }
@@ -105,12 +109,76 @@ bool RayQueries::closest(const Ray& ray, Hit& hit) const noexcept
     if (hit.path == 0)
         describe(level, hit, trace.mesh);
     hit.position = ray.origin + ray.direction * hit.t;
+    hit.in = ray.in;
     return true;
+}
+
+const Volumes& RayQueries::volumes() const noexcept
+{
+    return state_->volumes;
+}
+
+namespace {
+
+/// More surfaces than this behind one another are taken for the end of the way.
+constexpr int most_passed = 1000;
+
+} // namespace
+
+InVolumes RayQueries::volumes_at(const Point& point) const noexcept
+{
+    const Volumes& volumes = state_->volumes;
+    InVolumes around;
+    if (!volumes.any())
+        return around;
+    // Which boundaries are left before they were entered.
+    InVolumes entered;
+    Ray ray{point, {0.2672612419124244, 0.5345224838248488, 0.8017837257372732}, infinity};
+    Hit hit;
+    for (int i = 0; i < most_passed && closest(ray, hit); ++i) {
+        const bool entering = dot(hit.normal, ray.direction) < 0;
+        if (volumes.bounds(hit.modifier)) {
+            const InVolumes one = volumes.behind({}, hit.modifier, true);
+            if (entering)
+                entered.inside |= one.inside;
+            else if ((entered.inside & one.inside) == 0)
+                around.inside |= one.inside;
+        }
+        ray.origin = hit.leave(ray.direction);
+    }
+    return around;
+}
+
+/// A shadow ray where there are volumes: surface by surface.
+Spectrum RayQueries::through_volumes(Ray ray) const noexcept
+{
+    const Volumes& volumes = state_->volumes;
+    const double metres_per_t = length(ray.direction);
+    Spectrum left = Spectrum::grey(1);
+    for (int i = 0; i < most_passed && !left.is_black(); ++i) {
+        Hit hit;
+        const bool met = closest(ray, hit);
+        if (const Volumes::Haze haze = volumes.haze(ray.in); haze.thick())
+            left *= left_by_haze(haze.extinction_per_m, (met ? hit.t : ray.t_max) * metres_per_t);
+        if (!met)
+            return left;
+        const bool entering = dot(hit.normal, ray.direction) < 0;
+        if (volumes.cut_face(ray.in, hit.modifier, entering) != void_modifier)
+            return {};
+        if (!volumes.bounds(hit.modifier) && !volumes.erased(ray.in, hit.modifier))
+            left *= passage(hit, ray.direction / metres_per_t, hit.t * metres_per_t, state_->root);
+        ray.in = volumes.behind(ray.in, hit.modifier, entering);
+        ray.origin = hit.leave(ray.direction);
+        ray.t_max -= hit.t;
+    }
+    return {};
 }
 
 Spectrum RayQueries::transmittance(const Ray& ray) const noexcept
 {
     ++rays_of_thread.shadow;
+    if (state_->volumes.any())
+        return through_volumes(ray);
     PassedSurfaces passed;
     Trace trace{};
     trace.t_max = ray.t_max;

@@ -9,11 +9,18 @@
 
 namespace lightwell {
 
+/// Which volumes a ray is in: those of antimatter, whose surfaces it does not see, and haze.
+struct InVolumes {
+    std::uint32_t inside = 0; ///< one bit for each volume of the scene (engine/accel/volumes.h)
+    std::int32_t bodies = 0;  ///< erased bodies that it is in
+};
+
 /// A half-line or segment: origin + t * direction, 0 < t < t_max. The direction need not have unit length.
 struct Ray {
     Point origin;
     Vec3 direction;
     double t_max = infinity;
+    InVolumes in = {};
 };
 
 /// Where a ray meets a surface.
@@ -29,6 +36,7 @@ struct Hit {
     std::uint32_t triangle = 0; ///< of a mesh
     double error_m = 0;         ///< bound on how far `position` may lie off the surface
     Affine to_part;             ///< into the frame of the part that is instanced, where the modifier varies
+    InVolumes in = {};          ///< of the ray, before it met the surface
 
     /// `position` moved off the surface to the side of `direction`, beyond its error: where scattered rays start.
     Point leave(const Vec3& direction) const noexcept
@@ -36,6 +44,8 @@ struct Hit {
         return position + normal * (dot(normal, direction) >= 0 ? error_m : -error_m);
     }
 };
+
+class Volumes; // engine/accel/volumes.h
 
 /// What patterns may ask about a hit.
 /// @param direction  of the ray, unit; the place refers to the hit
@@ -62,11 +72,16 @@ public:
     /// of the straight transmittances of what it passes.
     Spectrum transmittance(const Ray& ray) const noexcept;
 
+    const Volumes& volumes() const noexcept;
+    /// The volumes around a point, told by what a ray from there meets on its way out; {} where the scene has none.
+    InVolumes volumes_at(const Point& point) const noexcept;
+
     /// Bytes that the acceleration structures hold.
     std::size_t bytes() const noexcept;
 
 private:
     struct State;
+    Spectrum through_volumes(Ray ray) const noexcept;
     std::unique_ptr<State> state_;
 };
 

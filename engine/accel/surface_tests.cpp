@@ -2,6 +2,7 @@
 #include "engine/accel/round_test.h"
 #include "engine/scene/expansion.h"
 #include "materials/bsdf.h"
+#include "materials/placed.h"
 
 #include <tuple>
 
@@ -123,6 +124,31 @@ PatternPlace pattern_place(const Hit& hit, const Direction& direction, double di
     return place;
 }
 
+Spectrum passage(const Hit& hit, const Direction& direction, double distance_m, const PartQueries& queries) noexcept
+{
+    const ModifierId modifier = hit.modifier;
+    if (!(*queries.see_through)[static_cast<std::size_t>(modifier)])
+        return {};
+    const Material* material = (*queries.materials)[static_cast<std::size_t>(modifier)];
+    SeenMaterial seen;
+    if (queries.varied->varies(modifier)) {
+        queries.varied->look(modifier, pattern_place(hit, direction, distance_m), seen);
+        material = seen.material;
+        if (material == nullptr)
+            return Spectrum::grey(1);
+    }
+    if (stands_for_geometry(*material))
+        return Spectrum::grey(1);
+    const double cosine = dot(hit.normal, direction);
+    const Frame frame = frame_of(*material, cosine < 0 ? hit.normal : -hit.normal);
+    const Bsdf bsdf(*material, cosine < 0, frame);
+    if (!bsdf.lobes().transparent_to_shadows)
+        return {};
+    Direction to_viewer = frame.to_local(-direction);
+    to_viewer.z = std::min(1.0, std::fabs(cosine));
+    return bsdf.straight_transmittance(to_viewer);
+}
+
 void describe(const Level& level, Hit& hit, const MeshGeometry* mesh)
 {
     const PartQueries& queries = *level.part;
@@ -186,29 +212,21 @@ void record_passage(const Level& level, const Candidate& candidate, double t)
         trace.opaque = cosine < 0;
         return;
     }
-    SeenMaterial seen;
-    if (queries.varied->varies(modifier)) {
-        Hit hit;
-        hit.position = root->origin + root->direction * t;
-        hit.normal = normal;
-        hit.path = level.path;
-        hit.part = queries.part;
-        hit.surface = candidate.surface;
-        hit.triangle = candidate.triangle;
+    Hit hit;
+    hit.position = root->origin + root->direction * t;
+    hit.normal = normal;
+    hit.modifier = modifier;
+    hit.path = level.path;
+    hit.part = queries.part;
+    hit.surface = candidate.surface;
+    hit.triangle = candidate.triangle;
+    if (queries.varied->varies(modifier))
         hit.to_part = into_part(level);
-        const double stretch = length(root->direction);
-        queries.varied->look(modifier, pattern_place(hit, root->direction / stretch, t * stretch), seen);
-        if (seen.material == nullptr)
-            return;
-        material = seen.material;
-    }
-    const Bsdf bsdf(*material, cosine < 0);
-    if (!bsdf.lobes().transparent_to_shadows) {
-        trace.opaque = true;
-        return;
-    }
-    const double c = std::min(1.0, std::fabs(cosine));
-    trace.passed->add(t, bsdf.straight_transmittance({std::sqrt(1 - c * c), 0, c}));
+    const double stretch = length(root->direction);
+    const Spectrum passed = passage(hit, root->direction / stretch, t * stretch, queries);
+    trace.opaque = passed.is_black();
+    if (!trace.opaque)
+        trace.passed->add(t, passed);
 }
 
 /// Keeps what is needed to describe the hit when the search is over: most candidates are beaten by nearer ones.

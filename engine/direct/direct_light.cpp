@@ -21,8 +21,8 @@ Ray shadow_ray(const Hit& from, const SourceSample& sample) noexcept
 {
     const Point start = from.leave(sample.to_light);
     if (std::isinf(sample.distance_m))
-        return {start, sample.to_light, infinity};
-    return {start, from.position + sample.to_light * sample.distance_m - start, before_lamp};
+        return {start, sample.to_light, infinity, from.in};
+    return {start, from.position + sample.to_light * sample.distance_m - start, before_lamp, from.in};
 }
 
 double shadow_ray_weight(double shadow_density, double scattered_density) noexcept

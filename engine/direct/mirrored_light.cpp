@@ -52,15 +52,15 @@ Spectrum MirroredLight::seen(const Vertex& vertex, const MirrorRoute& route, con
             return {};
         // The leg ends, and the next begins, just before the mirror.
         const Point before = met - mirror.frame.z * std::copysign(mirror.error_m + vertex.hit.error_m, slope);
-        legs[static_cast<std::size_t>(i)] = {start, before - start, 1};
+        legs[static_cast<std::size_t>(i)] = {start, before - start, 1, vertex.hit.in};
         direction = mirror.reflect_vector(direction);
         at = met;
         start = before;
         left_m -= away_m;
     }
     Ray& last = legs[static_cast<std::size_t>(route.reflections.count)];
-    last =
-        std::isinf(left_m) ? Ray{start, direction, infinity} : Ray{start, at + direction * left_m - start, before_lamp};
+    last = std::isinf(left_m) ? Ray{start, direction, infinity, vertex.hit.in}
+                              : Ray{start, at + direction * left_m - start, before_lamp, vertex.hit.in};
     Spectrum left = route.reflectance;
     for (int i = route.reflections.count; i >= 0 && !left.is_black(); --i)
         left *= rays_.transmittance(legs[static_cast<std::size_t>(i)]);
@@ -83,9 +83,10 @@ void MirroredLight::test(const Task& task, const VirtualSource& image, double ra
     const Spectrum arriving = seen(vertex, route, sample);
     if (arriving.is_black())
         return;
-    // Scattered rays leave the light of an Illum to shadow rays.
+    // Scattered rays leave the light of an Illum to shadow rays, and do not see mirrors that show something else.
     const bool found_by_scattering =
-        image.is_sun || !std::holds_alternative<Illum>(real_.lamps()[image.source].material());
+        !sources_.mirrors().hidden(route.reflections.mirrors.data(), route.reflections.count) &&
+        (image.is_sun || !std::holds_alternative<Illum>(real_.lamps()[image.source].material()));
     add_light(task.sum, vertex, {local, value, sample.radiance * arriving, sample.density_per_sr * rays},
               {task.wish.scattered, found_by_scattering});
 }

@@ -130,10 +130,13 @@ private:
             add_need(needs.panes, usage, photopic(glass->transmissivity));
             return;
         }
-        if (std::holds_alternative<Dielectric>(material)) {
+        if (std::holds_alternative<Dielectric>(material) || std::holds_alternative<Interface>(material)) {
             add_need(needs.bodies, usage, reflectance);
             return;
         }
+        if (std::holds_alternative<Mist>(material) || std::holds_alternative<Antimatter>(material) ||
+            std::holds_alternative<Prism>(material))
+            return; // they scatter by no lobe of their own
         reflecting_m2_ += usage.area_m2;
         reflected_m2_ += usage.area_m2 * reflectance;
         reflectances_[reflectance] += usage.area_m2;

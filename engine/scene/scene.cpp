@@ -1,6 +1,7 @@
 #include "engine/scene/scene.h"
 
 #include "engine/scene/expansion.h"
+#include "materials/placed.h"
 
 namespace lightwell {
 
@@ -29,8 +30,10 @@ ResolvedMaterial resolve(const Scene& scene, ModifierId id)
     ResolvedMaterial found;
     while (id != void_modifier) {
         const Modifier& modifier = scene.modifiers[static_cast<std::size_t>(id)];
-        if (const auto* material = std::get_if<Material>(&modifier.what); material && !found.material)
+        if (const auto* material = std::get_if<Material>(&modifier.what); material && !found.material) {
             found.material = material;
+            found.varies = found.varies || depends_on_place(*material);
+        }
         if (const auto* brightness = std::get_if<SkyBrightness>(&modifier.what); brightness && !found.brightness)
             found.brightness = brightness;
         if (const auto* varying = std::get_if<Varying>(&modifier.what)) {

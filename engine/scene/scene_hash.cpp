@@ -2,6 +2,7 @@
 
 #include "engine/base/random.h"
 #include "materials/patterns/place_function.h"
+#include "materials/patterns/place_program.h"
 
 #include <cstring>
 #include <type_traits>
@@ -96,8 +97,8 @@ private:
                 waiting.push_back(varying->background);
             }
             if (const auto* material = std::get_if<Material>(&modifier.what))
-                if (const auto* illum = std::get_if<Illum>(material))
-                    waiting.push_back(scene_.find_modifier(illum->alternate));
+                for (const std::string& name : named_modifiers(*material))
+                    waiting.push_back(scene_.find_modifier(name));
         }
     }
 
@@ -141,6 +142,55 @@ struct HashWhat {
     void add(const T& material) const noexcept
     {
         hash.plain(material);
+    }
+    void functions(const PlaceProgram& program) const noexcept
+    {
+        const PatternText& text = program.text();
+        hash.text(text.type);
+        for (const std::string& word : text.words)
+            hash.text(word);
+        hash.list(text.numbers);
+        hash.text(text.contents);
+        hash.plain(program.to_scene());
+    }
+    void add(const Mirror& m) const noexcept
+    {
+        hash.plain(m.reflectance);
+        hash.bits(used.number(scene.find_modifier(m.alternate)));
+    }
+    void add(const Brushed& m) const noexcept
+    {
+        hash.bits(static_cast<std::uint64_t>(m.kind));
+        functions(*m.grain.function);
+    }
+    void add(const Ashikhmin& m) const noexcept { functions(*m.grain.function); }
+    void add(const Functional& m) const noexcept
+    {
+        hash.bits(static_cast<std::uint64_t>(m.kind));
+        functions(*m.function);
+    }
+    void add(const Measured& m) const noexcept
+    {
+        hash.bits(m.passes_straight ? 1 : 0);
+        functions(*m.up.function); // whose contents are those of the file too
+    }
+    void add(const Wgmd& m) const noexcept
+    {
+        for (const std::string& tint : m.tints)
+            hash.bits(used.number(scene.find_modifier(tint)));
+        functions(*m.grain.function);
+    }
+    void add(const Prism& m) const noexcept { functions(*m.function); }
+    void add(const Antimatter& m) const noexcept
+    {
+        for (const std::string& name : m.erased)
+            hash.bits(used.number(scene.find_modifier(name)));
+    }
+    void add(const Mist& m) const noexcept
+    {
+        hash.plain(m.extinction_per_m);
+        hash.plain(m.albedo);
+        hash.plain(m.eccentricity);
     }
     void add(const Illum& illum) const noexcept
     {

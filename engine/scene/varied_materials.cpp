@@ -2,6 +2,7 @@
 
 #include "engine/base/random.h"
 #include "materials/patterns/place_function.h"
+#include "materials/placed.h"
 
 #include <algorithm>
 #include <cstring>
@@ -85,9 +86,26 @@ void VariedMaterials::look(ModifierId id, const PatternPlace& place, SeenMateria
     follow(id, walk);
     seen.bend = walk.bend;
     seen.material = walk.invisible ? nullptr : walk.material;
-    if (seen.material != nullptr && !(walk.colour == Spectrum::grey(1))) {
-        seen.made = tinted(*seen.material, walk.colour);
-        seen.material = &seen.made;
+    if (seen.material == nullptr)
+        return;
+    const bool coloured = !(walk.colour == Spectrum::grey(1));
+    if (!coloured && !depends_on_place(*seen.material))
+        return;
+    seen.made = coloured ? tinted(*seen.material, walk.colour) : *seen.material;
+    put_in_place(seen.made, place);
+    if (auto* wgmd = std::get_if<Wgmd>(&seen.made))
+        tint_parts(*wgmd, place, walk.colour);
+    seen.material = &seen.made;
+}
+
+/// The colours of the patterns that the material names for its parts.
+void VariedMaterials::tint_parts(Wgmd& wgmd, const PatternPlace& place, const Spectrum& colour) const noexcept
+{
+    for (std::size_t i = 0; i < std::size(wgmd.tints); ++i) {
+        Walk own{place};
+        follow(scene_->find_modifier(wgmd.tints[i]), own);
+        const Spectrum found = own.colour * colour;
+        wgmd.colours[i] = {std::clamp(found.r, 0.0, 1.0), std::clamp(found.g, 0.0, 1.0), std::clamp(found.b, 0.0, 1.0)};
     }
 }
 

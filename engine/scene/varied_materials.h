@@ -35,6 +35,7 @@ public:
 private:
     struct Walk;
     void follow(ModifierId id, Walk& walk) const noexcept;
+    void tint_parts(Wgmd& wgmd, const PatternPlace& place, const Spectrum& colour) const noexcept;
     void add_possible(ModifierId id, std::vector<const Material*>& found) const;
     const Modifier& modifier(ModifierId id) const noexcept { return scene_->modifiers[static_cast<std::size_t>(id)]; }
 

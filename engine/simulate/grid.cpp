@@ -225,7 +225,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         return result;
     Techniques techniques = settings.techniques;
     techniques.cache = techniques.cache && receivers.size() >= many_sensors;
-    const bool plain = settings.unbiased || !settings.techniques.deep_field;
+    const bool plain = settings.unbiased || !settings.techniques.deep_field || parts_->preparation.ambient_limit;
     const bool own_field = !plain && !techniques.cache && settings.ambient_file.file.empty();
     AmbientEffort effort = effort_of(settings);
     if (own_field)

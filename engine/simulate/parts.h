@@ -26,7 +26,8 @@ struct SimulationParts {
         : scene(with_open_sheets(std::move(s), p.secondary)),
           plan(plan_for(needs_of(scene), {PlanWish{}.accuracy, p.virtual_sources ? p.virtual_depth : 0})), rays(scene),
           sources(scene, rays), virtual_sources(scene, sources, virtual_settings()), secondary(scene, p.secondary),
-          tracer(scene, rays, sources, virtual_sources, {}, p.direct), box(bounds(scene)), preparation(p)
+          tracer(scene, rays, sources, virtual_sources, {nullptr, nullptr, nullptr, p.ambient_limit}, p.direct),
+          box(bounds(scene)), preparation(p)
     {
     }
 

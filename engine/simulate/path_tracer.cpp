@@ -1,4 +1,4 @@
-#include "engine/simulate/path_tracer.h"
+#include "engine/simulate/walk.h"
 
 #include "materials/emission.h"
 
@@ -40,62 +40,21 @@ DirectSettings behind_scattering(const DirectSettings& wanted)
     return settings;
 }
 
+/// What is seen in place of a surface; void: nothing.
+ModifierId alternate_of(const Scene& scene, const Material& material)
+{
+    const auto* illum = std::get_if<Illum>(&material);
+    const auto* mirror = std::get_if<Mirror>(&material);
+    const std::string name = illum != nullptr ? illum->alternate : mirror != nullptr ? mirror->alternate : "";
+    return name.empty() || name == "void" ? void_modifier : scene.find_modifier(name);
+}
+
 bool is_diffuse(const Lobes& lobes)
 {
     return !lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black();
 }
 
 } // namespace
-
-/// A path on its way.
-struct PathTracer::Walk {
-    Ray ray;
-    Spectrum throughput = Spectrum::grey(1);
-    Spectrum radiance;
-    Spectrum arriving_throughput; ///< the same for the irradiance on the first surface
-    Spectrum irradiance;
-    bool at_first = true;          ///< no scattering has happened yet
-    std::optional<Hit> first;      ///< what the ray from the eye met
-    bool first_is_diffuse = false; ///< so that its scattered light tells its irradiance
-    /// What has happened to the light of lamps and suns that a ray meets.
-    enum class Sources { in_full, weighted, answered } sources = Sources::in_full;
-    double scattered_density = 0; ///< of the last scattering
-    SourceShares shares;          ///< of the shadow rays there
-    SourceShares here;            ///< of the shadow rays at this vertex; they become `shares` when the path bends
-    MirrorShares mirror_shares, mirror_here; ///< the same of those to virtual sources
-    MirrorChain chain;                       ///< mirrors since the last bend by a diffuse or glossy lobe
-    double way_m = 0;                        ///< from there
-    int scatterings = 0;
-    double aim_weight = 1; ///< of an arrival's light from where it is scattered first
-    bool aimed = false;    ///< an arrival sent where light comes from: what emits in plain view is not its business
-    bool straight_from_receiver = false; ///< of an arrival, before anything bends it
-    bool met_lamp = false;               ///< of an arrival: with nothing in between
-    bool bent = false;                   ///< by a diffuse or glossy lobe: from there on the deep field serves
-    int replicate = 0;
-    int splits_left = 0; ///< at how many panes both the mirrored and the passing light are still followed
-    PathListener* listener = nullptr;
-    std::vector<Dependence>* dependences = nullptr; ///< of an arrival: what comes from the deep field is not known yet
-
-    void add(Spectrum light, double weight = 1)
-    {
-        radiance += throughput * light;
-        irradiance += arriving_throughput * light * weight;
-        if (listener != nullptr)
-            listener->added(arriving_throughput * light * weight, void_modifier);
-    }
-    /// From here on an arrival brings light that another way of sending rays finds too.
-    void settle_aim()
-    {
-        arriving_throughput = arriving_throughput * aim_weight;
-        aim_weight = 1;
-        aimed = false;
-    }
-    /// Weight of a source met by a scattered ray against shadow rays of this density.
-    double weight(double shadow_density) const
-    {
-        return shadow_density > 0 ? 1 - shadow_ray_weight(shadow_density, scattered_density) : 1;
-    }
-};
 
 /// Ambient irradiance on both sides of a vertex: in numbers, or as shares of the deep field's sites.
 struct PathTracer::AmbientHere {
@@ -120,9 +79,7 @@ PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceL
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const Material* material = resolve(scene, static_cast<ModifierId>(i)).material;
         materials_.push_back(material);
-        const Illum* illum = material != nullptr ? std::get_if<Illum>(material) : nullptr;
-        const bool has_alternate = illum != nullptr && !illum->alternate.empty() && illum->alternate != "void";
-        alternates_.push_back(has_alternate ? scene.find_modifier(illum->alternate) : void_modifier);
+        alternates_.push_back(material != nullptr ? alternate_of(scene, *material) : void_modifier);
     }
 }
 
@@ -318,7 +275,9 @@ bool PathTracer::follow(Walk& walk, const Vertex& vertex, const BsdfSample& scat
     else // its irradiance is known already, or cannot be told by this ray
         walk.arriving_throughput = {};
     walk.throughput *= scattered.weight;
-    walk.ray = {vertex.hit.leave(world), normalized(world), infinity};
+    walk.ray = {vertex.hit.leave(world), normalized(world), infinity, vertex.hit.in};
+    if (local.z < 0 && walk.jump_m > 0)
+        walk.ray.origin = walk.ray.origin - vertex.side * walk.jump_m;
     if (!scattered.straight) { // a straight passage leaves the weights of the last scattering as they are
         if (walk.straight_from_receiver)
             walk.settle_aim();
@@ -378,49 +337,59 @@ bool PathTracer::scatter(Walk& walk, const Vertex& vertex, LobeSet set, PathRand
 const Material* PathTracer::seen_material(const Walk& walk, Hit& hit, SeenMaterial& seen) const
 {
     ModifierId modifier = hit.modifier;
+    const Material& own = *materials_[static_cast<std::size_t>(modifier)];
     const bool from_behind = dot(hit.normal, walk.ray.direction) > 0;
-    if (std::holds_alternative<Illum>(*materials_[static_cast<std::size_t>(modifier)]) && (!walk.bent || from_behind))
+    if ((std::holds_alternative<Illum>(own) && (!walk.bent || from_behind)) ||
+        (std::holds_alternative<Mirror>(own) && !std::get<Mirror>(own).alternate.empty()))
         modifier = alternates_[static_cast<std::size_t>(modifier)];
     if (!varied_.varies(modifier))
         return modifier == void_modifier ? nullptr : materials_[static_cast<std::size_t>(modifier)];
     varied_.look(modifier, pattern_place(hit, walk.ray.direction, hit.t), seen);
     if (!(seen.bend == Vec3{}))
         hit.shading_normal = bent_normal(hit.shading_normal, seen.bend, walk.ray.direction);
+    if (seen.material != nullptr && stands_for_geometry(*seen.material)) {
+        const double thickness_m = std::get<Measured>(*seen.material).thickness_m;
+        if (!walk.bent || (thickness_m > 0) == from_behind)
+            return nullptr; // the geometry itself is seen
+    }
     return seen.material;
 }
 
 bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
 {
     Hit hit;
-    if (!rays_.closest(walk.ray, hit)) {
+    const bool met = rays_.closest(walk.ray, hit);
+    if (walk.ray.in.inside != 0 && scatter_in_haze(walk, met ? hit.t : infinity, random))
+        return !walk.throughput.is_black() || !walk.arriving_throughput.is_black();
+    if (!met) {
         meet_distant(walk);
         return false;
     }
+    const bool passed = rays_.volumes().any() && cross_volume(walk, hit);
     if (!walk.first)
         walk.first = hit;
     walk.way_m += hit.t;
     SeenMaterial seen;
-    const Material* material = seen_material(walk, hit, seen);
+    const Material* material = passed ? nullptr : seen_material(walk, hit, seen);
     if (material == nullptr) { // invisible: the ray goes on as if it had met nothing
-        walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity};
+        walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity, walk.ray.in};
         return true;
     }
+    if (const auto* prism = std::get_if<Prism>(material))
+        return turn_in_prism(walk, hit, *prism, random);
     if (is_emitter(*material)) {
         meet_emitter(walk, hit, *material);
         return false;
     }
     const Vertex vertex(hit, walk.ray.direction, *material);
-    const auto* body = std::get_if<Dielectric>(material);
-    if (body != nullptr && dot(hit.normal, walk.ray.direction) > 0) { // the way here was inside the body
-        const Spectrum left = body->transmission_per_m;
-        const Spectrum kept{std::pow(left.r, hit.t), std::pow(left.g, hit.t), std::pow(left.b, hit.t)};
-        walk.throughput *= kept;
-        walk.arriving_throughput *= kept;
-    }
+    absorb_inside(walk, hit, *material);
+    walk.jump_m = stands_for_geometry(*material) ? std::fabs(std::get<Measured>(*material).thickness_m) : 0;
     const Lobes& lobes = vertex.bsdf.lobes();
     walk.first_is_diffuse = walk.at_first ? !lobes.diffuse_reflectance.is_black() : walk.first_is_diffuse;
     if (walk.straight_from_receiver && (is_diffuse(lobes) || lobes.glossy))
         walk.settle_aim();
+    if (ambient_.limit && is_diffuse(lobes))
+        return scatter_within_limit(walk, vertex, random);
     AmbientHere here;
     if (is_diffuse(lobes) && find_ambient(walk, vertex, here)) {
         add_ambient(walk, here);
@@ -442,6 +411,7 @@ PathSample PathTracer::sample(const Ray& ray, int replicate, PathRandom& random)
 {
     Walk walk;
     walk.ray = ray;
+    walk.ray.in = rays_.volumes_at(ray.origin);
     walk.replicate = replicate;
     walk.splits_left = eye_splits;
     run(walk, random);
@@ -476,7 +446,12 @@ Spectrum PathTracer::irradiance(const SurfacePlace& receiver, int replicate, Pat
         gather_beside_ambient(walk, vertex, here, random);
         return walk.irradiance;
     }
+    if (ambient_.limit && ambient_.limit->bounces == 0) {
+        gather_plainly(walk, vertex, {first_rays, {true, true, false}, LobeSet::specular}, random);
+        return walk.irradiance + ambient_.limit->radiance * pi;
+    }
     gather_plainly(walk, vertex, {first_rays}, random);
+    walk.diffuse_bounces = 1;
     if (scatter(walk, vertex, LobeSet::all, random))
         run(walk, random);
     return walk.irradiance;
@@ -486,7 +461,7 @@ Spectrum PathTracer::irradiance(const SurfacePlace& receiver, int replicate, Pat
 PathTracer::Walk PathTracer::arriving_walk(const Vertex& vertex, const Direction& direction, double weight) const
 {
     Walk walk;
-    walk.ray = {vertex.hit.leave(direction), direction, infinity};
+    walk.ray = {vertex.hit.leave(direction), direction, infinity, vertex.hit.in};
     walk.arriving_throughput = Spectrum::grey(pi);
     walk.aim_weight = weight;
     walk.at_first = false;
@@ -563,12 +538,13 @@ void PathTracer::receivers_along(const Ray& ray, int scatterings, PathRandom& ra
         if (!rays_.closest(walk.ray, hit))
             return;
         SeenMaterial seen;
-        const Material* material = seen_material(walk, hit, seen);
+        const bool passed = rays_.volumes().any() && cross_volume(walk, hit);
+        const Material* material = passed ? nullptr : seen_material(walk, hit, seen);
         if (material == nullptr) {
-            walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity};
+            walk.ray = {hit.leave(walk.ray.direction), walk.ray.direction, infinity, walk.ray.in};
             continue;
         }
-        if (is_emitter(*material))
+        if (is_emitter(*material) || std::holds_alternative<Prism>(*material))
             return;
         const Vertex vertex(hit, walk.ray.direction, *material);
         const Lobes& lobes = vertex.bsdf.lobes();

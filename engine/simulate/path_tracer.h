@@ -80,6 +80,14 @@ private:
     void meet_distant(Walk& walk) const;
     const Material* seen_material(const Walk& walk, Hit& hit, SeenMaterial& seen) const;
     bool meet_surface(Walk& walk, PathRandom& random) const;
+    // passages.cpp: what lies between surfaces, and other ways to go on than by lobes
+    bool cross_volume(Walk& walk, Hit& hit) const;
+    bool scatter_in_haze(Walk& walk, double length_m, PathRandom& random) const;
+    void gather_in_haze(Walk& walk, const Spectrum& weight, double eccentricity, const Point& at,
+                        PathRandom& random) const;
+    void absorb_inside(Walk& walk, const Hit& hit, const Material& material) const;
+    bool turn_in_prism(Walk& walk, const Hit& hit, const Prism& prism, PathRandom& random) const;
+    bool scatter_within_limit(Walk& walk, const Vertex& vertex, PathRandom& random) const;
     void meet_emitter(Walk& walk, const Hit& hit, const Material& material) const;
     void run(Walk& walk, PathRandom& random) const;
     Walk arriving_walk(const Vertex& vertex, const Direction& direction, double weight) const;

@@ -151,7 +151,8 @@ std::vector<RayAnswer> RayTracer::trace(const std::vector<RayRequest>& rays, con
             throw InputError{"ray", "origin or direction is not finite, or the direction not a unit vector"};
     const bool any_indirect = std::any_of(
         rays.begin(), rays.end(), [&](const RayRequest& ray) { return !ray.sensor || !settings.constant_ambient; });
-    const bool plain = !any_indirect || settings.unbiased || !settings.techniques.deep_field;
+    const bool plain =
+        !any_indirect || settings.unbiased || !settings.techniques.deep_field || parts_->preparation.ambient_limit;
     Techniques techniques = settings.techniques;
     techniques.cache = false; // rays say nothing about their neighbours
     AmbientBuild ambient(*parts_, effort_of(settings), techniques, stop_when_asked(progress),

@@ -1,3 +1,4 @@
+#include "engine/accel/volumes.h"
 #include "engine/simulate/path_tracer.h"
 
 /// \file What a path tracer knows at a place without following a path: what is near, and light straight from the
@@ -26,6 +27,8 @@ Vertex PathTracer::white_vertex(const SurfacePlace& receiver) const
     here.position = receiver.position;
     here.error_m = receiver.error_m;
     here.normal = here.shading_normal = receiver.normal;
+    if (rays_.volumes().any())
+        here.in = rays_.volumes_at(here.leave(receiver.normal));
     return Vertex(here, -receiver.normal, white_);
 }
 

@@ -251,7 +251,7 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     check_accuracy(settings.accuracy, "view " + view.name);
     const Camera camera(view);
     const Tile wanted = wanted_pixels(settings), whole{0, 0, settings.width, settings.height};
-    const bool plain = settings.unbiased || !settings.techniques.deep_field;
+    const bool plain = settings.unbiased || !settings.techniques.deep_field || parts_->preparation.ambient_limit;
     AmbientBuild ambient(*parts_, effort_of(settings), settings.techniques, stop_when_asked(progress),
                          plain ? "" : settings.ambient_file.file);
     RayLaps rays;

@@ -8,6 +8,7 @@
 #include "engine/pictures/picture.h"
 #include "engine/plan/plan.h"
 #include "engine/scene/scene.h"
+#include "engine/simulate/ambient_light.h"
 #include "engine/sources/secondary_sources.h"
 
 #include <cstdint>
@@ -137,6 +138,8 @@ struct Preparation {
     bool virtual_sources = true; ///< false: as a depth of 0
     DirectSettings direct = {};
     SecondarySettings secondary = {}; ///< openings that rays are aimed at
+    /// Diffuse interreflection as other programs limit it; results are then found as with `unbiased`.
+    std::optional<AmbientLimit> ambient_limit = {};
 };
 
 /// What was made ready for a scene, by stage: 0 for those that its plan does without.

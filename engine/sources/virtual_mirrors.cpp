@@ -246,6 +246,7 @@ struct MirrorSet::Builder {
     {
         if (!mirror)
             return;
+        mirror->hidden = !std::get<Mirror>(placed.material).alternate.empty();
         UnreachableMirror description{placed.surface.name, placed.modifier, mirror->area_m2, mirror->reflectance};
         found.push_back({std::move(*mirror), placed.path, placed.index, std::move(triangles), &placed.surface,
                          std::move(description), looked_at});

@@ -3,7 +3,9 @@
 #include "engine/accel/ray_queries.h"
 #include "engine/base/frame.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <unordered_map>
 #include <vector>
 
@@ -32,6 +34,7 @@ struct PlanarMirror {
     double area_m2 = 0;
     double error_m = 0; ///< bound on how far rays may find it off its plane
     Spectrum reflectance;
+    bool hidden = false; ///< only shadow rays see it; others see what its material names in its place
 
     /// Signed height above the plane.
     double height_m(const Point& p) const noexcept { return dot(frame.z, p - centre); }
@@ -69,6 +72,12 @@ public:
     bool complete() const noexcept { return complete_; }
     /// The mirror that a ray has met; -1 when it is none of them.
     int mirror_at(const Hit& hit) const noexcept;
+    /// Whether one of these is seen by shadow rays alone.
+    bool hidden(const std::int16_t* which, int count) const noexcept
+    {
+        return std::any_of(which, which + count,
+                           [this](int i) { return mirrors_[static_cast<std::size_t>(i)].hidden; });
+    }
     /// @param p  a point of the mirror's plane
     bool holds(std::size_t mirror, const Point& p) const noexcept;
 

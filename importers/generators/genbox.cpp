@@ -8,7 +8,8 @@ namespace {
 
 using namespace generators;
 
-constexpr const char* usage = "Usage: genbox material name xsize ysize zsize [-i] [-b bevel | -r round] [-o]\n";
+constexpr const char* usage =
+    "Usage: genbox material name xsize ysize zsize [-i] [-b bevel | -r round [-n segments [-s]]] [-o]\n";
 
 struct Box {
     std::string material, name;
@@ -99,7 +100,9 @@ Box box_of(WordReader& words)
             box.round = option == "-r";
             if (!(box.cut > 0) || !(2 * box.cut < std::min(box.size.x, std::min(box.size.y, box.size.z))))
                 throw BadWords("Use error - bevel or round must be positive and less than half of each size");
-        } else {
+        } else if (option == "-n") { // facets of round edges in OBJ; in scene text they are round
+            words.count("segments", 1, 10'000);
+        } else if (option != "-s") {
             throw BadWords("Use error - unknown option: " + option);
         }
     }

@@ -21,7 +21,8 @@ std::string usage_of(const std::string& program)
         "    or -G direct-horizontal diffuse-horizontal irradiance (W/m^2)\n"
         "    or -E global-horizontal irradiance (W/m^2)\n"
         "  -O 0|1|2  what the radiances are: visible W/(m^2 sr), solar W/(m^2 sr), cd/m^2\n"
-        "  -g reflectance of the ground, -s or -c no sun, -w no warnings, -a -o -m place and meridian, west positive\n",
+        "  -g reflectance of the ground, -s or -c no sun, -w no warnings, -a -o -m place and meridian, west positive\n"
+        "  -i minutes: where the sun rises or sets within them, it stands in the middle of the part that it is up\n",
         program);
 }
 
@@ -43,6 +44,7 @@ struct Wish {
     double ground_reflectance = 0.2;
     bool sun = true; ///< without it, it lights nothing, not even the ground
     bool warnings = true;
+    bool coloured = false;
 };
 
 void read_option(const std::string& option, WordReader& words, SkyMoment& moment, Wish& wish)
@@ -70,9 +72,15 @@ void read_option(const std::string& option, WordReader& words, SkyMoment& moment
         wish.sun = false;
     } else if (option == "-w") {
         wish.warnings = false;
-    } else if (option == "-t" || option == "-i") {
-        words.number("value"); // kept by other programs for weather files; without effect on a single sky
-    } else if (option != "-C" && !moment.option(option, words)) {
+    } else if (option == "-i") {
+        moment.interval_h = words.number("minutes") / 60;
+        if (!(moment.interval_h >= 0 && moment.interval_h <= 24))
+            throw BadWords("Use error - time interval is not between 0 and 1440 minutes");
+    } else if (option == "-t") {
+        words.number("turbidity"); // no sky of Perez depends on it
+    } else if (option == "-C") {
+        wish.coloured = true;
+    } else if (!moment.option(option, words)) {
         throw BadWords("Use error - unknown option: " + option);
     }
 }
@@ -244,6 +252,8 @@ void make(const std::vector<std::string>& words, GeneratorAnswer& answer)
     moment.read(reader);
     while (reader.more())
         read_option(reader.word("option"), reader, moment, wish);
+    if (wish.coloured)
+        answer.messages += words[0] + ": warning - the colour of the sky is not modelled (-C): it is grey\n";
     moment.settle(words[0], answer);
     if (moment.sun.altitude_rad > highest_sun_rad) {
         answer.messages += words[0] + ": warning - sun too close to zenith, reducing altitude to 87 degrees\n";

@@ -114,6 +114,23 @@ bool SkyMoment::option(const std::string& word, WordReader& words)
     return true;
 }
 
+namespace {
+
+/// Of an interval in which the sun rises or sets, the middle of the part that it is up; else the hour itself.
+double middle_of_daylight(const SolarTime& time, double interval_h, double latitude_rad)
+{
+    const double cosine = -std::tan(latitude_rad) * std::tan(time.declination_rad);
+    if (!(interval_h > 0) || !(std::fabs(cosine) < 1))
+        return time.hour;
+    const double half_day = std::acos(cosine) * 12 / pi, sunrise = 12 - half_day, sunset = 12 + half_day;
+    const double from = time.hour - interval_h / 2, to = time.hour + interval_h / 2;
+    if (from < sunrise && to > sunrise)
+        return (sunrise + to) / 2;
+    return from < sunset && to > sunset ? (from + sunset) / 2 : time.hour;
+}
+
+} // namespace
+
 void SkyMoment::settle(const std::string& program, GeneratorAnswer& answer)
 {
     if (by_angles)
@@ -128,6 +145,7 @@ void SkyMoment::settle(const std::string& program, GeneratorAnswer& answer)
         year != 0 ? solar_time_of_date(year, month, day, hour, clock) : solar_time_of_day(day_number(), hour, clock);
     if (solar)
         time.hour = hour;
+    time.hour = middle_of_daylight(time, interval_h, clock.latitude_rad);
     solar_hour = time.hour;
     sun = sun_angles(time, clock.latitude_rad);
 }

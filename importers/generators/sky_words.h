@@ -15,6 +15,7 @@ struct SkyMoment {
     bool solar = false;    ///< the hour is solar time
     bool own_zone = false; ///< the hour names its zone, which -m does not change
     SkyClock clock;
+    double interval_h = 0; ///< that the moment is the middle of; 0: a moment alone
     double solar_hour = 0; ///< found by settle()
 
     SkyMoment();

@@ -1,6 +1,7 @@
 #include "importers/project/date_time.h"
 
 #include "engine/base/text.h"
+#include "importers/project/time_zone.h"
 
 #include <algorithm>
 
@@ -62,7 +63,7 @@ bool take_time(std::string_view& text, DateTime& result)
         return false;
     double seconds = 0;
     if (take(text, ':')) {
-        const std::size_t end = std::min(text.find_first_of("+-Zz"), text.size());
+        const std::size_t end = std::min(text.find_first_of("+-Zz["), text.size());
         const auto value = parse_double(text.substr(0, end));
         if (!value || !(*value >= 0 && *value < 60))
             return false;
@@ -80,6 +81,12 @@ bool take_offset(std::string_view& text, DateTime& result)
     if (take(text, 'Z') || take(text, 'z')) {
         result.utc_offset_h = 0;
         return text.empty();
+    }
+    if (take(text, '[')) {
+        if (text.empty() || text.back() != ']')
+            return false;
+        result.utc_offset_h = utc_offset_in_zone_h(std::string(text.substr(0, text.size() - 1)), result);
+        return result.utc_offset_h.has_value();
     }
     const bool negative = text[0] == '-';
     if (!take(text, '+') && !take(text, '-'))

@@ -1,5 +1,6 @@
 #include "importers/radiance/material_text.h"
 
+#include "engine/base/errors.h"
 #include "engine/base/text.h"
 #include "importers/radiance/modifier_table.h"
 #include "importers/radiance/transform_words.h"
@@ -13,16 +14,15 @@ namespace {
 
 constexpr std::string_view surface_types[] = {"polygon", "sphere", "bubble", "cone", "cup",      "cylinder",
                                               "tube",    "ring",   "source", "mesh", "instance", "subdivision"};
-constexpr std::string_view material_types[] = {"plastic", "metal", "trans", "dielectric", "glass",
-                                               "mirror",  "light", "illum", "glow",       "spotlight"};
+constexpr std::string_view material_types[] = {
+    "plastic",   "metal",     "trans",    "dielectric", "glass",     "mirror", "light",    "illum",
+    "glow",      "spotlight", "plastic2", "metal2",     "trans2",    "ashik2", "plasfunc", "metfunc",
+    "transfunc", "plasdata",  "metdata",  "transdata",  "BRTDfunc",  "BSDF",   "aBSDF",    "WGMDfunc",
+    "interface", "mist",      "prism1",   "prism2",     "antimatter"};
 constexpr std::string_view pattern_types[] = {"brightfunc", "brightdata", "brighttext", "colorfunc",
                                               "colordata",  "colorpict",  "colortext",  "spectrum",
                                               "specfile",   "specfunc",   "specdata",   "specpict"};
 constexpr std::string_view texture_types[] = {"texfunc", "texdata"};
-constexpr std::string_view unmodelled_types[] = {"plastic2",  "metal2",   "trans2",   "plasfunc",  "metfunc",
-                                                 "transfunc", "plasdata", "metdata",  "transdata", "BRTDfunc",
-                                                 "BSDF",      "aBSDF",    "WGMDfunc", "ashik2",    "interface",
-                                                 "mist",      "prism1",   "prism2",   "antimatter"};
 constexpr std::string_view mixture_types[] = {"mixfunc", "mixdata", "mixtext", "mixpict"};
 
 template <std::size_t N>
@@ -88,6 +88,36 @@ Material emitter_of(const Primitive& p, const std::string& place)
     return Illum{colour(p), alternate == "void" ? "" : std::move(alternate)};
 }
 
+/// What lies between surfaces, or takes them away.
+Material volume_of(const Primitive& p, const std::string& place)
+{
+    const auto& n = p.numbers;
+    if (p.type == "interface") {
+        expect_numbers(p, place, 8, 8,
+                       "transmission per metre red green blue and refractive index, inside, then outside");
+        return Interface{colour(p), n[3], {n[4], n[5], n[6]}, n[7]};
+    }
+    if (p.type == "antimatter") {
+        Antimatter erased;
+        for (const std::string_view word : p.words)
+            erased.erased.push_back(decoded_name(word));
+        return erased;
+    }
+    if (n.size() != 0 && n.size() != 3 && n.size() != 6 && n.size() != 7)
+        throw InputError{place, fmt::format("{} numbers, expected 0, 3, 6 or 7", n.size()),
+                         "they are extinction per metre red green blue, albedo red green blue, eccentricity"};
+    Mist mist;
+    if (n.size() >= 3)
+        mist.extinction_per_m = colour(p);
+    if (n.size() >= 6)
+        mist.albedo = {n[3], n[4], n[5]};
+    if (n.size() == 7)
+        mist.eccentricity = n[6];
+    for (const std::string_view word : p.words)
+        mist.sources.emplace_back(word);
+    return mist;
+}
+
 /// Turned about z as the transform words behind the function's file say.
 void turn_sky(SkyBrightness& sky, const Primitive& primitive, const std::string& place)
 {
@@ -140,7 +170,38 @@ struct ArgumentWriter {
         else
             list({m.transmissivity.r, m.transmissivity.g, m.transmissivity.b, m.index});
     }
-    void operator()(const Mirror& m) const { list({m.reflectance.r, m.reflectance.g, m.reflectance.b}); }
+    void operator()(const Mirror& m) const
+    {
+        list({m.reflectance.r, m.reflectance.g, m.reflectance.b}, m.alternate.empty() ? "" : encoded_name(m.alternate));
+    }
+    void operator()(const Interface& m) const
+    {
+        const Spectrum &in = m.inner_transmission_per_m, &out = m.outer_transmission_per_m;
+        list({in.r, in.g, in.b, m.inner_index, out.r, out.g, out.b, m.outer_index});
+    }
+    void words(const std::vector<std::string>& all) const
+    {
+        text += std::to_string(all.size());
+        for (const std::string& word : all)
+            text += ' ' + encoded_name(word);
+        text += "\n0\n";
+    }
+    void operator()(const Antimatter& m) const
+    {
+        words(m.erased);
+        text += "0\n";
+    }
+    void operator()(const Mist& m) const
+    {
+        words(m.sources);
+        const Spectrum &e = m.extinction_per_m, &a = m.albedo;
+        append_numbers(text, {e.r, e.g, e.b, a.r, a.g, a.b, m.eccentricity});
+    }
+    /// Those with functions are written as they were read, by append_functions().
+    template <class WithFunctions>
+    void operator()(const WithFunctions&) const
+    {
+    }
     void operator()(const Light& m) const { list({m.radiance.r, m.radiance.g, m.radiance.b}); }
     void operator()(const Illum& m) const
     {
@@ -167,23 +228,21 @@ TypeClass classify(std::string_view type) noexcept
         return TypeClass::texture;
     if (contains(mixture_types, type))
         return TypeClass::mixture;
-    if (contains(unmodelled_types, type))
-        return TypeClass::unmodelled_material;
     return type == "alias" ? TypeClass::alias : TypeClass::unknown;
 }
 
-Material material_of(const Primitive& primitive, const std::string& place, Report& report)
+Material material_of(const Primitive& primitive, const std::string& place)
 {
     if (primitive.type == "mirror") {
         expect_numbers(primitive, place, 3, 3, "red green blue reflectance");
-        if (!primitive.words.empty() && primitive.words[0] != "void")
-            report.add(Finding::unsupported, place,
-                       "what eyes see in place of a mirror (its word) is not modelled yet; they see the mirror");
-        return Mirror{colour(primitive)};
+        return Mirror{colour(primitive), primitive.words.empty() ? "" : decoded_name(primitive.words[0])};
     }
     for (const std::string_view type : {"light", "illum", "glow", "spotlight"})
         if (primitive.type == type)
             return emitter_of(primitive, place);
+    for (const std::string_view type : {"interface", "antimatter", "mist"})
+        if (primitive.type == type)
+            return volume_of(primitive, place);
     return reflector_of(primitive, place);
 }
 
@@ -257,31 +316,47 @@ std::string quoted(const std::string& word)
 
 } // namespace
 
-bool append_varying(std::string& text, const std::string& modifier, const std::string& name,
-                    const PlaceFunction& function, const std::vector<std::string>& mixed, const FileWords& file_words)
+namespace {
+
+/// The words, with files where they were found and the transform as it is now; then the numbers.
+bool append_read(std::string& text, const PatternText& read, const std::vector<std::string>& first, const Affine& map,
+                 const FileWords& file_words)
 {
-    const PatternText& read = function.text();
     const bool letters = read.type.ends_with("text");
     std::vector<std::string> words = read.words;
     for (const auto& [at, path] : read.files)
         words[at] = file_words.found(path);
     for (const auto& [at, contents] : read.made)
         words[at] = file_words.made(contents);
-    words.insert(words.begin(), mixed.begin(), mixed.end());
-    const auto transform =
-        letters ? std::optional<std::vector<std::string>>(std::in_place) : words_of(function.to_scene());
+    words.insert(words.begin(), first.begin(), first.end());
+    const auto transform = letters ? std::optional<std::vector<std::string>>(std::in_place) : words_of(map);
     if (transform)
         words.insert(words.end(), transform->begin(), transform->end());
-    append_head(text, modifier, read.type, name);
     text += std::to_string(words.size());
     for (const std::string& word : words)
         text += ' ' + quoted(word);
-    const std::vector<double> numbers = letters ? moved_letters(read.numbers, function.to_scene()) : read.numbers;
+    const std::vector<double> numbers = letters ? moved_letters(read.numbers, map) : read.numbers;
     text += "\n0\n" + std::to_string(numbers.size());
     for (const double number : numbers)
         text += ' ' + shortest(number);
     text += '\n';
     return transform.has_value();
+}
+
+} // namespace
+
+bool append_functions(std::string& text, const std::string& modifier, const std::string& name,
+                      const PlaceProgram& functions, const FileWords& file_words)
+{
+    append_head(text, modifier, functions.text().type, name);
+    return append_read(text, functions.text(), {}, functions.to_scene(), file_words);
+}
+
+bool append_varying(std::string& text, const std::string& modifier, const std::string& name,
+                    const PlaceFunction& function, const std::vector<std::string>& mixed, const FileWords& file_words)
+{
+    append_head(text, modifier, function.text().type, name);
+    return append_read(text, function.text(), mixed, function.to_scene(), file_words);
 }
 
 } // namespace lightwell::scene_text

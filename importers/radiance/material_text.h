@@ -2,7 +2,7 @@
 
 #include "engine/scene/scene.h"
 #include "importers/radiance/words.h"
-#include "materials/patterns/place_function.h"
+#include "materials/patterns/pattern_reader.h"
 
 #include <functional>
 #include <optional>
@@ -10,12 +10,16 @@
 namespace lightwell::scene_text {
 
 /// What a type word of the scene language stands for.
-enum class TypeClass { surface, material, pattern, texture, mixture, unmodelled_material, alias, unknown };
+enum class TypeClass { surface, material, pattern, texture, mixture, alias, unknown };
 TypeClass classify(std::string_view type) noexcept;
 
-/// The material that the arguments describe; numbers are checked by validate_material().
+/// The material that the arguments describe; numbers are checked by validate_material(). Not for those with functions.
 /// @throws InputError for a wrong number of arguments, showing what they are
-Material material_of(const Primitive& primitive, const std::string& place, Report& report);
+Material material_of(const Primitive& primitive, const std::string& place);
+/// A material whose functions and files have been read (materials/patterns/pattern_reader.h).
+/// @throws InputError for a wrong number of arguments, and files of scattering that cannot be read
+Material functional_material_of(const Primitive& primitive, const PatternReader::MaterialWords& words,
+                                const std::string& place, Report& report);
 /// The sky's brightness when the pattern is `skybr skybright.cal`, else nothing.
 /// @throws InputError for arguments that are no sky
 std::optional<SkyBrightness> sky_brightness_of(const Primitive& primitive, const std::string& place);
@@ -33,6 +37,10 @@ struct FileWords {
     std::function<std::string(const std::string& path)> found;
     std::function<std::string(const std::string& text)> made; ///< for one that is nowhere yet, with this content
 };
+/// A material with functions as it was read.
+/// @return  as append_varying()
+bool append_functions(std::string& text, const std::string& modifier, const std::string& name,
+                      const PlaceProgram& functions, const FileWords& file_words);
 /// A pattern, texture or mixture as it was read.
 /// @param mixed  the words of a mixture's foreground and background; empty for the others
 /// @return       false when its transform cannot be told by words: it is left out

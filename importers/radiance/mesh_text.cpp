@@ -18,7 +18,7 @@ using Corner = std::array<long long, 3>;
 
 class MeshReader {
 public:
-    explicit MeshReader(std::string file) : file_(std::move(file)) {}
+    MeshReader(std::string file, bool by_material) : file_(std::move(file)), by_material_(by_material) {}
 
     void line(std::string_view text)
     {
@@ -34,18 +34,28 @@ public:
             texture_.push_back({number(1), words_.size() > 2 ? number(2) : 0});
         else if (words_[0] == "f")
             face();
+        else if (words_[0] == "usemtl" && by_material_)
+            group_ = &groups_[words_.size() > 1 ? std::string(words_[1]) : ""];
     }
 
-    Mesh finish()
+    /// The meshes by material; without `by_material` one, whose name is empty.
+    std::map<std::string, Mesh> finish()
     {
-        if (mesh_.triangles.empty())
+        std::map<std::string, Mesh> meshes;
+        for (auto& [name, group] : groups_) {
+            Mesh& mesh = group.mesh;
+            if (mesh.triangles.empty())
+                continue;
+            // Only complete lists are of use: one corner without a normal leaves them all without.
+            if (mesh.normals.size() != mesh.points.size())
+                mesh.normals.clear();
+            if (mesh.texture.size() != 2 * mesh.points.size())
+                mesh.texture.clear();
+            meshes.emplace(name, std::move(mesh));
+        }
+        if (meshes.empty())
             throw InputError{file_, "no faces", "a mesh file has `v` and `f` lines"};
-        // Only complete lists are of use: one corner without a normal leaves them all without.
-        if (mesh_.normals.size() != mesh_.points.size())
-            mesh_.normals.clear();
-        if (mesh_.texture.size() != 2 * mesh_.points.size())
-            mesh_.texture.clear();
-        return std::move(mesh_);
+        return meshes;
     }
 
 private:
@@ -85,15 +95,16 @@ private:
 
     std::uint32_t vertex(const Corner& corner)
     {
-        const auto [entry, fresh] = known_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.points.size()));
+        Mesh& mesh = group_->mesh;
+        const auto [entry, fresh] = group_->known.try_emplace(corner, static_cast<std::uint32_t>(mesh.points.size()));
         if (fresh) {
-            mesh_.points.push_back(points_[static_cast<std::size_t>(corner[0])]);
+            mesh.points.push_back(points_[static_cast<std::size_t>(corner[0])]);
             if (corner[1] >= 0) {
                 const auto& uv = texture_[static_cast<std::size_t>(corner[1])];
-                mesh_.texture.insert(mesh_.texture.end(), {uv[0], uv[1]});
+                mesh.texture.insert(mesh.texture.end(), {uv[0], uv[1]});
             }
             if (corner[2] >= 0)
-                mesh_.normals.push_back(normals_[static_cast<std::size_t>(corner[2])]);
+                mesh.normals.push_back(normals_[static_cast<std::size_t>(corner[2])]);
         }
         return entry->second;
     }
@@ -108,14 +119,14 @@ private:
         if (corners.size() > 3 && !convex(corners))
             reject("a face with more than three corners is not convex", "cut it into triangles");
         for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-            mesh_.triangles.insert(mesh_.triangles.end(), {corners[0], corners[i], corners[i + 1]});
+            group_->mesh.triangles.insert(group_->mesh.triangles.end(), {corners[0], corners[i], corners[i + 1]});
     }
 
     bool convex(const std::vector<std::uint32_t>& corners) const
     {
         std::vector<Point> outline;
         for (const std::uint32_t c : corners)
-            outline.push_back(mesh_.points[c]);
+            outline.push_back(group_->mesh.points[c]);
         const Vec3 area = polygon_area_vector(outline.data(), outline.size());
         const std::size_t n = outline.size();
         for (std::size_t i = 0; i < n; ++i) {
@@ -132,8 +143,13 @@ private:
     std::vector<std::string_view> words_;
     std::vector<Point> points_, normals_;
     std::vector<std::array<double, 2>> texture_;
-    std::map<Corner, std::uint32_t> known_;
-    Mesh mesh_;
+    struct Group {
+        Mesh mesh;
+        std::map<Corner, std::uint32_t> known;
+    };
+    bool by_material_;
+    std::map<std::string, Group> groups_;
+    Group* group_ = &groups_[""];
 };
 
 void append_line(std::string& text, const char* keyword, std::initializer_list<double> numbers)
@@ -146,10 +162,12 @@ void append_line(std::string& text, const char* keyword, std::initializer_list<d
 
 } // namespace
 
-Mesh read_mesh_text(const std::filesystem::path& file)
+namespace {
+
+std::map<std::string, Mesh> read_meshes(const std::filesystem::path& file, bool by_material)
 {
     const MappedFile mapped(file);
-    MeshReader reader(file.filename().string());
+    MeshReader reader(file.filename().string(), by_material);
     std::string_view rest = mapped.bytes();
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -157,6 +175,18 @@ Mesh read_mesh_text(const std::filesystem::path& file)
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     return reader.finish();
+}
+
+} // namespace
+
+Mesh read_mesh_text(const std::filesystem::path& file)
+{
+    return std::move(read_meshes(file, false).begin()->second);
+}
+
+std::map<std::string, Mesh> read_meshes_by_material(const std::filesystem::path& file)
+{
+    return read_meshes(file, true);
 }
 
 std::string mesh_text(const Mesh& mesh)

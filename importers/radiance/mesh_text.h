@@ -3,6 +3,7 @@
 #include "engine/scene/surface.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 namespace lightwell::scene_text {
@@ -11,6 +12,8 @@ namespace lightwell::scene_text {
 /// corner when they are convex. Groups, materials and smoothing are skipped: a mesh has one modifier.
 /// @throws InputError with file and line: NaN, indices out of range, concave faces
 Mesh read_mesh_text(const std::filesystem::path& file);
+/// The same, its faces apart by the materials that `usemtl` names.
+std::map<std::string, Mesh> read_meshes_by_material(const std::filesystem::path& file);
 
 /// The mesh as a Wavefront file, from which read_mesh_text() makes the same triangles, bit for bit.
 std::string mesh_text(const Mesh& mesh);

@@ -3,6 +3,8 @@
 #include "engine/base/errors.h"
 #include "importers/radiance/place_surface.h"
 #include "materials/patterns/place_function.h"
+#include "materials/patterns/place_program.h"
+#include "materials/placed.h"
 
 #include <cstring>
 
@@ -45,17 +47,19 @@ public:
     }
     void operator()(const Varying& v)
     {
-        const PatternText& text = v.function->text();
         number(static_cast<double>(v.kind));
         number(v.foreground);
         number(v.background);
+        read(v.function->text(), v.function->to_scene());
+    }
+    void read(const PatternText& text, const Affine& map)
+    {
         words(text.type);
         for (const std::string& word : text.words)
             words(word);
         for (const double value : text.numbers)
             number(value);
         number(static_cast<double>(std::hash<std::string>{}(text.contents)));
-        const Affine& map = v.function->to_scene();
         for (const Vec3& column : {map.x, map.y, map.z, map.translation})
             vector(column);
     }
@@ -74,7 +78,44 @@ public:
     }
     void operator()(const Dielectric& m) { surface(m.transmission_per_m, m.index, m.hartmann); }
     void operator()(const Glass& m) { surface(m.transmissivity, m.index, 0); }
-    void operator()(const Mirror& m) { spectrum(m.reflectance); }
+    void operator()(const Mirror& m)
+    {
+        spectrum(m.reflectance);
+        key += m.alternate;
+    }
+    void operator()(const Interface& m)
+    {
+        surface(m.inner_transmission_per_m, m.inner_index, m.outer_index);
+        spectrum(m.outer_transmission_per_m);
+    }
+    void operator()(const Antimatter& m)
+    {
+        for (const std::string& name : m.erased)
+            words(name);
+    }
+    void operator()(const Mist& m)
+    {
+        spectrum(m.extinction_per_m);
+        surface(m.albedo, m.eccentricity, 0);
+        for (const std::string& name : m.sources)
+            words(name);
+    }
+    void functions(const PlaceProgram& program) { read(program.text(), program.to_scene()); }
+    void operator()(const Brushed& m) { functions(*m.grain.function); }
+    void operator()(const Ashikhmin& m) { functions(*m.grain.function); }
+    void operator()(const Functional& m) { functions(*m.function); }
+    void operator()(const Measured& m)
+    {
+        words(m.file);
+        functions(*m.up.function);
+    }
+    void operator()(const Wgmd& m)
+    {
+        for (const std::string& name : m.tints)
+            words(name);
+        functions(*m.grain.function);
+    }
+    void operator()(const Prism& m) { functions(*m.function); }
     void operator()(const Light& m) { spectrum(m.radiance); }
     void operator()(const Illum& m)
     {
@@ -111,9 +152,27 @@ Spectrum power(const Spectrum& s, double exponent)
     return {std::pow(s.r, exponent), std::pow(s.g, exponent), std::pow(s.b, exponent)};
 }
 
+/// The functions of a material move like a pattern; everything else stays.
+Material with_moved_functions(Material material, const Affine& map)
+{
+    if (auto* const functions = functions_of(material); functions != nullptr && *functions != nullptr)
+        *functions = std::make_shared<const PlaceProgram>(**functions, map);
+    return material;
+}
+
 Material transformed(const Material& material, const Affine& map, bool scale_materials)
 {
     const double scale = scale_materials ? length(map.x) : 1;
+    if (depends_on_place(material))
+        return with_moved_functions(material, map);
+    if (const auto* mist = std::get_if<Mist>(&material)) {
+        Mist scaled = *mist;
+        scaled.extinction_per_m = mist->extinction_per_m / scale;
+        return scaled;
+    }
+    if (const auto* border = std::get_if<Interface>(&material); border != nullptr && scale != 1)
+        return Interface{power(border->inner_transmission_per_m, 1 / scale), border->inner_index,
+                         power(border->outer_transmission_per_m, 1 / scale), border->outer_index};
     if (const auto* spot = std::get_if<Spotlight>(&material))
         return Spotlight{spot->radiance, spot->full_angle_deg, map.vector(spot->aim)};
     if (const auto* glow = std::get_if<Glow>(&material))
@@ -186,7 +245,8 @@ ModifierId transformed(const Scene& scene, ModifierTable& table, ModifierId id, 
         return table.add({original().name, change.patterns_only ? *sky : turned(*sky, map, place), parent});
     if (const auto* material = std::get_if<Material>(&original().what))
         return table.add({original().name,
-                          change.patterns_only ? *material : transformed(*material, map, change.scale_materials),
+                          change.patterns_only ? with_moved_functions(*material, map)
+                                               : transformed(*material, map, change.scale_materials),
                           parent});
     return table.add({original().name, Inherited{}, parent});
 }

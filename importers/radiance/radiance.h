@@ -50,13 +50,13 @@ private:
 
 /// Reads a scene description (the core of the Radiance language): materials and emitters, aliases, all surfaces,
 /// `mesh` naming an .obj or a .ply, `subdivision` naming a .ply, `instance` naming a .rad file (or NAME.oct beside
-/// which NAME.rad stands), the sky function of gensky, our comments `#@from`, `#@view`, `#@grid`; `!xform ... FILE` is
-/// answered without running it. Files are looked for beside the referring file, beside `file`, in the working folder
-/// and on RAYPATH.
+/// which NAME.rad stands), the sky function of gensky, our comments `#@from`, `#@view`, `#@grid`; commands in
+/// the text (`!xform`, the generators, pipes of them) are answered without running them. Files are looked for beside
+/// the referring file, beside `file`, in the working folder and on RAYPATH.
 /// @param report  what was left out or repaired, with file and line
 /// @return        valid by construction: validate() passes
 /// @throws InputError with file and line: unknown modifier or type, wrong number of arguments, NaN, files that refer
-///         to each other in a circle, commands other than xform, materials that are not modelled yet where used
+///         to each other in a circle, other commands, materials that cannot be read where used
 Scene read_radiance(const std::filesystem::path& file, Report& report);
 /// The same, with what the text tells beside the scene.
 Scene read_radiance(const std::filesystem::path& file, Report& report, KeptMeshes& kept, SceneOrigins& origins);

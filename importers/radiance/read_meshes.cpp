@@ -29,19 +29,50 @@ void SceneReader::add_mesh(OpenFile& file, const Primitive& primitive, Target ta
     if (primitive.type == "subdivision")
         throw InputError{place, fmt::format("\"{}\" is no control cage", name), "name a .ply"};
     const ModifierId modifier = usable(file, primitive, file.last_meaning);
-    if (modifier == void_modifier)
-        throw InputError{place, "a mesh made of `void` takes the materials of its file, which is not modelled yet",
-                         "give it a modifier"};
     const fs::path path = find(name, file, place);
     if (path.extension() != ".obj")
         throw InputError{place, fmt::format("\"{}\" is no mesh file that is read", name),
                          "name a .ply, an .obj, or the .rtm beside which the .obj stands"};
     const Affine map = only_placement(primitive, place);
-    if (map == Affine{})
+    if (modifier == void_modifier)
+        target.part.add_instance({prototype_with_materials(path, file, place), map, {}}, decoded_name(primitive.name));
+    else if (map == Affine{})
         target.part.add_mesh(mesh(path), modifier, decoded_name(primitive.name));
     else
         target.part.add_instance({prototype_of_mesh(path, moved_patterns(modifier, inverse(map), place)), map, {}},
                                  decoded_name(primitive.name));
+}
+
+/// A mesh with the materials that its faces name; they are defined in the file NAME.mat beside NAME.obj.
+std::uint32_t SceneReader::prototype_with_materials(const fs::path& path, OpenFile& file, const std::string& place)
+{
+    const std::pair key(fs::weakly_canonical(path), void_modifier);
+    if (const auto known = mesh_prototypes_.find(key); known != mesh_prototypes_.end())
+        return known->second;
+    fs::path definitions = path;
+    definitions.replace_extension(".mat");
+    if (std::error_code unreadable; !fs::is_regular_file(definitions, unreadable))
+        throw InputError{place,
+                         fmt::format("a mesh made of `void` takes its materials from \"{}\", which is not there",
+                                     definitions.string()),
+                         "give it a modifier, or put the materials beside it"};
+    Part part;
+    part.name = path.stem().string();
+    Scope scope;
+    read_file(definitions, &file, place, {part, scope});
+    for (auto& [name, mesh] : read_meshes_by_material(path)) {
+        const auto meaning = scope.find(name);
+        if (!meaning)
+            throw InputError{path.string(),
+                             fmt::format("material \"{}\" is not defined in \"{}\"", name, definitions.string()),
+                             "define it there"};
+        if (meaning->problem >= 0) {
+            const Problem& found = problems_[static_cast<std::size_t>(meaning->problem)];
+            throw InputError{path.string(), fmt::format("uses {}, {}", found.place, found.what), found.hint};
+        }
+        part.add_mesh(std::make_shared<const Mesh>(std::move(mesh)), meaning->id, name);
+    }
+    return mesh_prototypes_[key] = add_prototype(std::move(part));
 }
 
 std::uint32_t SceneReader::prototype_of_mesh(const fs::path& path, ModifierId modifier)

@@ -33,10 +33,7 @@ ModifierId SceneReader::usable(OpenFile& file, const Primitive& primitive, const
     if (meaning.problem < 0)
         return meaning.id;
     const Problem& found = problems_[static_cast<std::size_t>(meaning.problem)];
-    throw InputError{file.words.place(primitive), fmt::format("uses {}, {}", found.place, found.what),
-                     found.hint.empty()
-                         ? "give it one of plastic metal trans dielectric glass mirror light illum glow spotlight"
-                         : found.hint};
+    throw InputError{file.words.place(primitive), fmt::format("uses {}, {}", found.place, found.what), found.hint};
 }
 
 void SceneReader::define(OpenFile& file, const Primitive& primitive, Target target)
@@ -48,12 +45,7 @@ void SceneReader::define(OpenFile& file, const Primitive& primitive, Target targ
         return define_pattern(file, primitive, parent, target);
     if (kind == TypeClass::mixture)
         return define_varying(file, primitive, parent, target);
-    if (kind == TypeClass::material)
-        return define_material(file, primitive, parent, target);
-    const std::string place = file.words.place(primitive);
-    const std::string what = fmt::format("type {} is not modelled yet", primitive.type);
-    report_.add(Finding::unsupported, place, what + "; surfaces made of it are refused");
-    target.scope.define(decoded_name(primitive.name), problem(place, what));
+    define_material(file, primitive, parent, target);
 }
 
 void SceneReader::define_pattern(OpenFile& file, const Primitive& primitive, const Meaning& parent, Target target)
@@ -111,16 +103,16 @@ void SceneReader::define_varying(OpenFile& file, const Primitive& primitive, con
     target.scope.define(std::move(name), meaning);
 }
 
-std::shared_ptr<const PlaceFunction> SceneReader::pattern_function(const OpenFile& file, const Primitive& primitive,
-                                                                   std::size_t mixed_words, const std::string& place)
+PatternReader::Request SceneReader::request(const OpenFile& file, const Primitive& primitive, std::size_t first_word,
+                                            const std::string& place) const
 {
     PatternReader::Request request;
     request.type = primitive.type;
-    request.words.assign(primitive.words.begin() + static_cast<std::ptrdiff_t>(mixed_words), primitive.words.end());
+    request.words.assign(primitive.words.begin() + static_cast<std::ptrdiff_t>(first_word), primitive.words.end());
     request.numbers = primitive.numbers;
     request.place = place;
-    request.find_file = [&](const std::string& name) { return find_quietly(name, file); };
-    request.read_transform = [&](const std::vector<std::string>& words, std::size_t begin) {
+    request.find_file = [this, &file](const std::string& name) { return find_quietly(name, file); };
+    request.read_transform = [place](const std::vector<std::string>& words, std::size_t begin) {
         const std::vector<Placement> placements = read_placements(words, begin, place);
         if (begin != words.size() || placements.size() != 1)
             throw InputError{place,
@@ -132,7 +124,13 @@ std::shared_ptr<const PlaceFunction> SceneReader::pattern_function(const OpenFil
                              "patterns are turned, moved and scaled as a whole"};
         return placements.front().map;
     };
-    return patterns_.read(request);
+    return request;
+}
+
+std::shared_ptr<const PlaceFunction> SceneReader::pattern_function(const OpenFile& file, const Primitive& primitive,
+                                                                   std::size_t mixed_words, const std::string& place)
+{
+    return patterns_.read(request(file, primitive, mixed_words, place));
 }
 
 ModifierId SceneReader::moved_patterns(ModifierId modifier, const Affine& map, const std::string& place)
@@ -144,11 +142,26 @@ void SceneReader::define_material(OpenFile& file, const Primitive& primitive, Me
 {
     const std::string place = file.words.place(primitive);
     std::string name = decoded_name(primitive.name);
-    Material material = material_of(primitive, place, report_);
-    validate_material(material, place);
-    if (const auto* illum = std::get_if<Illum>(&material); illum != nullptr && !illum->alternate.empty())
-        meaning_of(file, primitive, primitive.words[0], target);
     Meaning meaning = parent;
+    if (PatternReader::knows_material(primitive.type)) {
+        try {
+            Material material = functional_material_of(
+                primitive, patterns_.read_material(request(file, primitive, 0, place)), place, report_);
+            validate_material(material, place);
+            if (parent.problem < 0)
+                meaning.id = table_.add({name, std::move(material), parent.id});
+        } catch (const InputError& error) {
+            // Many scenes define more than they use.
+            report_.add(Finding::unsupported, place, std::string(error.what()) + "; surfaces that use it are refused");
+            meaning = problem(place, error.what(), "correct the material, or leave it out");
+        }
+        meaning.pattern_left_out = false;
+        return target.scope.define(std::move(name), meaning);
+    }
+    Material material = material_of(primitive, place);
+    validate_material(material, place);
+    for (const std::string& named : named_modifiers(material))
+        meaning_of(file, primitive, encoded_name(named), target);
     if (parent.pattern_left_out && is_emitter(material))
         meaning = problem(place, "an emitter whose brightness is set by a pattern that is not modelled yet");
     else if (parent.problem < 0)

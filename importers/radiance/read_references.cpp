@@ -30,11 +30,11 @@ bool is_file(const fs::path& path)
     return fs::is_regular_file(path, unreadable);
 }
 
-/// NAME.rad for NAME.oct, NAME.obj for NAME.rtm: the text that a compiled file was made from.
+/// NAME.rad for NAME.oct and NAME.octf, NAME.obj for NAME.rtm: the text that a compiled file was made from.
 fs::path text_of_compiled(const fs::path& name)
 {
     fs::path text = name;
-    if (name.extension() == ".oct")
+    if (name.extension() == ".oct" || name.extension() == ".octf")
         text.replace_extension(".rad");
     if (name.extension() == ".rtm")
         text.replace_extension(".obj");

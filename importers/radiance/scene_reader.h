@@ -82,6 +82,8 @@ private:
     void define_alias(OpenFile& file, const Primitive& primitive, Target target);
     void define_pattern(OpenFile& file, const Primitive& primitive, const Meaning& parent, Target target);
     void define_varying(OpenFile& file, const Primitive& primitive, const Meaning& parent, Target target);
+    PatternReader::Request request(const OpenFile& file, const Primitive& primitive, std::size_t first_word,
+                                   const std::string& place) const;
     std::shared_ptr<const PlaceFunction> pattern_function(const OpenFile& file, const Primitive& primitive,
                                                           std::size_t mixed_words, const std::string& place);
     ModifierId aliased(const std::string& name, ModifierId target, const std::optional<ModifierId>& parent);
@@ -95,6 +97,7 @@ private:
     void add_instance(OpenFile& file, const Primitive& primitive, Target target);
     void add_mesh(OpenFile& file, const Primitive& primitive, Target target);
     std::uint32_t prototype_of_file(const std::filesystem::path& path, OpenFile& file, const std::string& place);
+    std::uint32_t prototype_with_materials(const std::filesystem::path& path, OpenFile& file, const std::string& place);
     std::uint32_t prototype_of_mesh(const std::filesystem::path& path, ModifierId modifier);
     std::uint32_t add_prototype(Part part);
     std::uint32_t with_modifier(std::uint32_t prototype, ModifierId modifier);

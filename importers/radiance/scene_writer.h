@@ -1,11 +1,13 @@
 #pragma once
 
+#include "importers/radiance/material_text.h"
 #include "importers/radiance/modifier_table.h"
 #include "importers/radiance/radiance.h"
 #include "materials/patterns/place_function.h"
 
 #include <deque>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -76,6 +78,7 @@ private:
     /// Makes sure that the modifier's name means it from here on, and returns the word for it.
     const std::string& use(Output& out, ModifierId id);
     void define(Output& out, ModifierId id);
+    scene_text::FileWords file_words(const PatternText& read, const std::string& name);
     void define_varying(Output& out, const Modifier& modifier, const Varying& varying);
 
     Bindings effective_bindings(std::uint32_t prototype, const Bindings& own, const Bindings& outer) const;

@@ -7,6 +7,7 @@
 #include "importers/radiance/scene_writer.h"
 #include "importers/radiance/surface_text.h"
 #include "importers/radiance/transform_words.h"
+#include "materials/placed.h"
 
 #include <fmt/format.h>
 
@@ -50,10 +51,16 @@ void SceneWriter::define(Output& out, ModifierId id)
     const Modifier& modifier = changed_.modifiers[static_cast<std::size_t>(id)];
     const std::string name = encoded_name(modifier.name);
     if (const auto* material = std::get_if<Material>(&modifier.what)) {
-        if (const auto* illum = std::get_if<Illum>(material); illum != nullptr && !illum->alternate.empty())
-            use(out, changed_.find_modifier(illum->alternate));
+        for (const std::string& named : named_modifiers(*material))
+            use(out, changed_.find_modifier(named));
         const std::string parent = use(out, modifier.parent);
-        append_material(out.file.text(), parent, name, *material);
+        const auto* functions = functions_of(*material);
+        if (functions == nullptr)
+            append_material(out.file.text(), parent, name, *material);
+        else if (!append_functions(out.file.text(), parent, name, **functions,
+                                   file_words((*functions)->text(), modifier.name)))
+            report_.add(Finding::approximated, modifier.name,
+                        "functions under a map that is no similarity: written without their transform");
     } else if (const auto* sky = std::get_if<SkyBrightness>(&modifier.what)) {
         const std::string parent = use(out, modifier.parent);
         append_sky_brightness(out.file.text(), parent, name, *sky);
@@ -71,6 +78,19 @@ void SceneWriter::define(Output& out, ModifierId id)
     out.busy.erase(id);
 }
 
+/// Files stay where they are; the text names them from its own folder.
+FileWords SceneWriter::file_words(const PatternText& read, const std::string& name)
+{
+    const auto found = [this](const std::string& path) {
+        const std::filesystem::path whole = std::filesystem::absolute(path);
+        return (file_.empty() ? whole
+                              : std::filesystem::proximate(whole, std::filesystem::absolute(file_).parent_path()))
+            .string();
+    };
+    const auto made = [this, &read, name](const std::string& text) { return data_file_of(read, text, name); };
+    return {found, made};
+}
+
 void SceneWriter::define_varying(Output& out, const Modifier& modifier, const Varying& varying)
 {
     std::vector<std::string> mixed;
@@ -78,18 +98,8 @@ void SceneWriter::define_varying(Output& out, const Modifier& modifier, const Va
         for (const ModifierId part : {varying.foreground, varying.background})
             mixed.push_back(use(out, part));
     const std::string parent = use(out, modifier.parent);
-    // Files stay where they are; the text names them from its own folder.
-    const auto file_word = [&](const std::string& path) {
-        const std::filesystem::path whole = std::filesystem::absolute(path);
-        return (file_.empty() ? whole
-                              : std::filesystem::proximate(whole, std::filesystem::absolute(file_).parent_path()))
-            .string();
-    };
-    const auto made_word = [&](const std::string& text) {
-        return data_file_of(varying.function->text(), text, modifier.name);
-    };
     if (!append_varying(out.file.text(), parent, encoded_name(modifier.name), *varying.function, mixed,
-                        {file_word, made_word}))
+                        file_words(varying.function->text(), modifier.name)))
         report_.add(Finding::approximated, modifier.name,
                     "pattern under a map that is no similarity: written without its transform");
 }

@@ -14,6 +14,7 @@ struct PatternPlace {
     const Affine* to_part = nullptr; ///< into the frame of the part that is instanced; null: the world's
     UnitSquare texture{};            ///< coordinates on a mesh
     bool distant = false;            ///< on a distant source: no position
+    Direction to_light{0, 0, 0};     ///< of functions over the direction of the light; 0: they are not asked
 };
 
 } // namespace lightwell

@@ -37,6 +37,30 @@ const Form* form_of(std::string_view type) noexcept
     return found == std::end(forms) ? nullptr : found;
 }
 
+/// How the words of a material are laid out: v a value at the place, l a function of the direction to the light, n the
+/// name of a modifier, t a file of measured scattering, d a function of a data file and that file; after the function
+/// file, c the coordinates of the data.
+struct MaterialForm {
+    std::string_view type, words;
+};
+constexpr MaterialForm material_forms[] = {
+    {"plastic2", "vvv."},       {"metal2", "vvv."},
+    {"trans2", "vvv."},         {"ashik2", "vvv."},
+    {"plasfunc", "l."},         {"metfunc", "l."},
+    {"transfunc", "l."},        {"plasdata", "d.c"},
+    {"metdata", "d.c"},         {"transdata", "d.c"},
+    {"BRTDfunc", "vvvvvvlll."}, {"BSDF", "vtvvv."},
+    {"aBSDF", "tvvv."},         {"WGMDfunc", "nvvvnvvvnvvv."},
+    {"prism1", "vvvv."},        {"prism2", "vvvvvvvv."},
+};
+
+const MaterialForm* material_form_of(std::string_view type) noexcept
+{
+    const auto* found = std::find_if(std::begin(material_forms), std::end(material_forms),
+                                     [&](const MaterialForm& f) { return f.type == type; });
+    return found == std::end(material_forms) ? nullptr : found;
+}
+
 /// What stands at a path, made once.
 template <class T, class Make>
 std::shared_ptr<const T> kept(std::map<fs::path, std::shared_ptr<const T>>& all, const fs::path& path, const Make& make)
@@ -74,8 +98,61 @@ public:
         return std::make_shared<const PlaceFunction>(std::move(what), to_scene, std::move(text_));
     }
 
+    MaterialWords material()
+    {
+        const MaterialForm* form = material_form_of(request_.type);
+        if (form == nullptr)
+            throw InputError{request_.place, "type " + request_.type + " is no material with functions"};
+        of_material_ = true;
+        text_ = {request_.type, {}, request_.numbers, {}, {}, {}};
+        MaterialWords read;
+        std::vector<std::string> at_place, functions, coordinates;
+        std::shared_ptr<const DataTable> table;
+        std::string context;
+        for (const char kind : form->words) {
+            if (kind == 'v')
+                at_place.push_back(word("a formula"));
+            else if (kind == 'l' || kind == 'd')
+                functions.push_back(word("the name of a function"));
+            else if (kind == 'n')
+                read.names.push_back(word("the name of a modifier"));
+            else if (kind == 't')
+                read.table = file("file of measured scattering");
+            else if (kind == '.')
+                context = function_file();
+            else
+                coordinates = words(table->dimensions(), "a coordinate");
+            if (kind == 'd')
+                table = data(0);
+        }
+        for (std::string& coordinate : coordinates)
+            coordinate = towards_light(coordinate, context);
+        for (std::string& function : functions)
+            function = table != nullptr ? call_of(function, value_channel) : towards_light(function, context);
+        PlaceProgram::What what{compile(at_place, context), compile(functions, context), table,
+                                compile(coordinates, context)};
+        text_.words.assign(request_.words.begin(), request_.words.begin() + static_cast<std::ptrdiff_t>(next_));
+        const Affine to_scene =
+            next_ < request_.words.size() ? request_.read_transform(request_.words, next_) : Affine{};
+        read.functions = std::make_shared<const PlaceProgram>(std::move(what), to_scene, std::move(text_));
+        return read;
+    }
+
 private:
     using Source = Form::Source;
+
+    /// A function of the direction, called with it; anything else as it stands. A fourth argument, the size of the
+    /// light, is 0: lamps are sampled point by point.
+    std::string towards_light(const std::string& text, const std::string& context) const
+    {
+        const Definition* found = definitions_->find(text, context.empty() ? "" : '`' + context);
+        if (found == nullptr || found->parameters.empty())
+            return text;
+        std::string call = text + '(';
+        for (std::size_t i = 0; i < found->parameters.size(); ++i)
+            call.append(i > 0 ? "," : "").append(i < 3 ? channel_word(light_channel + i) : "0");
+        return call.append(")");
+    }
 
     PlaceFunction::What of_form(const Form& form)
     {
@@ -296,9 +373,10 @@ private:
     std::shared_ptr<const Definitions> definitions(const std::string& context, const std::string& file,
                                                    std::string_view text)
     {
-        std::shared_ptr<const Definitions>& entry = reader_.definitions_[file];
+        std::shared_ptr<const Definitions>& entry =
+            reader_.definitions_[std::string(of_material_ ? "material " : "").append(file)];
         if (entry == nullptr) {
-            auto made = std::make_shared<Definitions>(standard_definitions());
+            auto made = std::make_shared<Definitions>(standard_definitions(of_material_));
             if (!file.empty())
                 made->add(text, file, context);
             entry = std::move(made);
@@ -315,6 +393,7 @@ private:
     const Request& request_;
     PatternText text_;
     std::size_t next_ = 0, first_dimensions_ = 0;
+    bool of_material_ = false;
     std::shared_ptr<const Definitions> definitions_;
 };
 
@@ -326,6 +405,16 @@ std::shared_ptr<const PlaceFunction> PatternReader::read(const Request& request)
 bool PatternReader::knows(std::string_view type) noexcept
 {
     return form_of(type) != nullptr;
+}
+
+PatternReader::MaterialWords PatternReader::read_material(const Request& request)
+{
+    return Build(*this, request).material();
+}
+
+bool PatternReader::knows_material(std::string_view type) noexcept
+{
+    return material_form_of(type) != nullptr;
 }
 
 } // namespace lightwell

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materials/patterns/place_function.h"
+#include "materials/patterns/place_program.h"
 
 #include <filesystem>
 #include <functional>
@@ -29,6 +30,15 @@ public:
     ///         defined
     std::shared_ptr<const PlaceFunction> read(const Request& request);
     static bool knows(std::string_view type) noexcept;
+    /// The functions of a material, and the words among them that name other things.
+    struct MaterialWords {
+        std::shared_ptr<const PlaceProgram> functions;
+        std::vector<std::string> names;             ///< of modifiers, as they stand
+        std::optional<std::filesystem::path> table; ///< the file of measured scattering
+    };
+    /// @throws InputError as read() does
+    MaterialWords read_material(const Request& request);
+    static bool knows_material(std::string_view type) noexcept;
 
 private:
     class Build;

@@ -12,8 +12,6 @@ namespace {
 /// A length that stands for the way to a distant source.
 constexpr double far_away = 1e10;
 
-using Channels = std::array<double, most_channels>;
-
 void put(Channels& channels, std::size_t first, const Vec3& v)
 {
     channels[first - 1] = v.x;
@@ -21,8 +19,9 @@ void put(Channels& channels, std::size_t first, const Vec3& v)
     channels[first + 1] = v.z;
 }
 
-/// The place as functions see it, in the frame of the pattern.
-Channels channels_of(const PatternPlace& place, const Affine& to_pattern)
+} // namespace
+
+Channels channels_of(const PatternPlace& place, const Affine& to_pattern) noexcept
 {
     const double scale = std::cbrt(std::fabs(to_pattern.determinant()));
     const auto turned = [&](const Vec3& v) { return to_pattern.vector(v) / scale; };
@@ -41,10 +40,12 @@ Channels channels_of(const PatternPlace& place, const Affine& to_pattern)
     channels[24] = distance;
     channels[25] = place.texture.u;
     channels[26] = place.texture.v;
+    put(channels, 28, turned(place.normal));
+    channels[30] = channels[10];
+    channels[31] = channels[32] = channels[33] = 1;
+    put(channels, light_channel, turned(place.to_light));
     return channels;
 }
-
-} // namespace
 
 PlaceFunction::PlaceFunction(What what, const Affine& to_scene, PatternText text)
     : what_(std::make_shared<const What>(std::move(what))), text_(std::make_shared<const PatternText>(std::move(text))),

@@ -123,10 +123,14 @@ double native_accuracy(const RadianceSettings& settings) noexcept
     return std::clamp(of_one_division / std::sqrt(std::max(1, settings.ambient_divisions)), finest, coarsest);
 }
 
-void warn_of_bounces(const std::string& program, const RadianceSettings& settings, std::ostream& err)
+Preparation preparation_for(const RadianceSettings& settings)
 {
-    if (settings.warnings && settings.ambient_bounces == 0)
-        err << program << ": warning - with -ab 0 indirect light is followed all the same\n";
+    Preparation preparation;
+    if (settings.ambient_bounces == 0 || settings.ambient_divisions == 0)
+        preparation.ambient_limit = {0, settings.ambient_value};
+    else if (settings.ambient_accuracy == 0)
+        preparation.ambient_limit = {settings.ambient_bounces, settings.ambient_value};
+    return preparation;
 }
 
 RaySettings ray_settings(const RadianceSettings& settings)

@@ -53,8 +53,9 @@ bool read_setting(OptionReader& words, RadianceSettings& settings);
 
 /// The relative standard error that these settings ask for: Radiance's own, about 0.7 / sqrt(ambient divisions).
 double native_accuracy(const RadianceSettings& settings) noexcept;
-/// Says that pictures and rays have all bounces, where direct light alone was asked for.
-void warn_of_bounces(const std::string& program, const RadianceSettings& settings, std::ostream& err);
+/// With `-ab 0`, or by plain path tracing (`-aa 0`), diffuse light is followed as often as `-ab` says, and `-av` stands
+/// for the rest; else the engine follows it to the end.
+Preparation preparation_for(const RadianceSettings& settings);
 RaySettings ray_settings(const RadianceSettings& settings);
 
 } // namespace lightwell::commands

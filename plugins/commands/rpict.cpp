@@ -139,8 +139,8 @@ void render(const std::vector<std::string>& words, const Wish& asked, std::ostre
     settings.unbiased = of_rays.unbiased;
     settings.threads = of_rays.threads;
     settings.ambient_file = of_rays.ambient_file;
-    warn_of_bounces(words[0], wish.settings, err);
-    PictureResult result = Simulation(std::move(loaded.scene)).render(view, settings, reports.progress());
+    PictureResult result =
+        Simulation(std::move(loaded.scene), preparation_for(wish.settings)).render(view, settings, reports.progress());
     Picture& picture = result.picture;
     if (wish.settings.irradiance)
         show_irradiance(picture);

@@ -245,10 +245,8 @@ int rtrace(const std::vector<std::string>& words, const Streams& streams)
     LoadedScene loaded = load_scene(wish.octree, streams);
     if (wish.settings.warnings)
         write_warnings(words[0], loaded.report, err);
-    if (!wish.sensors)
-        warn_of_bounces(words[0], wish.settings, err);
     write_header(words, loaded, wish, streams.out);
-    const RayTracer tracer(std::move(loaded.scene));
+    const RayTracer tracer(std::move(loaded.scene), preparation_for(wish.settings));
     trace_all(wish, tracer, streams);
     return 0;
 }

@@ -166,6 +166,30 @@ TEST(Generators, BadWordsEndWithStatusOneAndSayWhy)
     }
 }
 
+TEST(Generators, ASunThatRisesWithinTheHourStandsInTheMiddleOfItsPart)
+{
+    const std::string place = " -a 50 -o -8 -m -15 -W 500 100";
+    // Radiance 6.1a, the first three with its correction, the last untouched by it.
+    const std::pair<const char*, const char*> recorded[] = {
+        {"4.2", "# Local solar time: 4.07\n# Solar altitude and azimuth: 1.1 -126.6\n"},
+        {"4.4", "# Local solar time: 4.17\n# Solar altitude and azimuth: 1.9 -125.5\n"},
+        {"4.8", "# Local solar time: 4.37\n# Solar altitude and azimuth: 3.5 -123.2\n"}};
+    for (const auto& [hour, lines] : recorded)
+        EXPECT_NE(run("gendaylit 6 21 " + std::string(hour) + place + " -i 60").out.find(lines), std::string::npos)
+            << hour;
+    const auto sky_of = [](const Ran& ran) { return ran.out.substr(ran.out.find('\n')); };
+    EXPECT_EQ(sky_of(run("gendaylit 6 21 12" + place + " -i 60")), sky_of(run("gendaylit 6 21 12" + place)));
+    EXPECT_NE(run("gendaylit 6 21 12" + place + " -i -5").status, 0);
+    EXPECT_NE(run("gendaylit 6 21 12" + place + " -C").err.find("warning - the colour of the sky"), std::string::npos);
+}
+
+TEST(Generators, SegmentsOfRoundEdgesLeaveSceneTextAsItIs)
+{
+    const auto box_of = [](const Ran& ran) { return ran.out.substr(ran.out.find('\n')); };
+    EXPECT_EQ(box_of(run("genbox m b 1 2 3 -r .2 -n 4 -s")), box_of(run("genbox m b 1 2 3 -r .2")));
+    EXPECT_EQ(run("genbox m b 1 2 3 -r .2 -n none").status, 1);
+}
+
 TEST(Generators, MarkersAreReplacedWhereTheyPoint)
 {
     const WorkFolder folder;

@@ -101,6 +101,30 @@ TEST(Rtrace, BadWordsAndRaysAreRefused)
     EXPECT_EQ(run("rtrace -h lamp.oct", "0 0 1 0 0").status, 1); // ends within a ray
 }
 
+TEST(Rtrace, WithoutBouncesTheAmbientValueIsAllThatReachesHiddenSurfaces)
+{
+    const WorkFolder folder;
+    folder.write("table.rad", "void light l 0 0 3 100 100 100\nl sphere s 0 0 4 0 0 2 .1\n"
+                              "void plastic grey 0 0 5 .5 .5 .5 0 0\n"
+                              "grey polygon floor 0 0 12 -20 -20 0 20 -20 0 20 20 0 -20 20 0\n"
+                              "grey polygon table 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1\n");
+    std::ofstream("table.oct", std::ios::binary) << run("oconv -f table.rad").out;
+    const std::string underside = "0 0 .5 0 0 1\n", floor = "5 0 1 0 0 -1\n";
+    const auto seen = [](const std::string& line, const std::string& rays) {
+        return numbers_of(run(line, rays).out).at(0);
+    };
+    EXPECT_DOUBLE_EQ(seen("rtrace -h -ab 0 table.oct", underside), 0);
+    EXPECT_NEAR(seen("rtrace -h -ab 0 -av .2 .2 .2 table.oct", underside), 0.1, 1e-6);
+    EXPECT_NEAR(seen("rtrace -h -i -ab 0 -av .2 .2 .2 table.oct", underside), 0.2 * pi, 1e-5);
+    const double of_av =
+        seen("rtrace -h -ab 0 -av .2 .2 .2 table.oct", floor) - seen("rtrace -h -ab 0 table.oct", floor);
+    EXPECT_NEAR(of_av, 0.1, 2e-3);
+    // One bounce, by plain path tracing, brings light from the floor, and two no less.
+    const double once = seen("rtrace -h -ab 1 -aa 0 table.oct", underside);
+    EXPECT_GT(once, 0);
+    EXPECT_GT(seen("rtrace -h -ab 3 -aa 0 table.oct", underside), 0.9 * once);
+}
+
 TEST(Rpict, APictureHasItsHistoryItsViewAndItsLight)
 {
     const WorkFolder folder;

@@ -1,12 +1,10 @@
 #include "materials/bsdf.h"
 
-#include "engine/base/random.h"
-#include "engine/sampling/statistics.h"
-#include "engine/sampling/warps.h"
+#include "materials/measured/measured_table.h"
+#include "tests/unit/materials/bsdf_measures.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -34,7 +32,14 @@ std::vector<Named> rough_materials()
             {"diffusing trans", Trans{white, 0, 0, 0.6, 0}},
             {"glossy trans", Trans{white, 0.06, 0.15, 0.5, 0.6}},
             {"rough trans", Trans{white, 0.06, 1, 0.9, 0.9}},
-            {"smooth trans", Trans{brown, 0.06, 0, 0.5, 0.6}}};
+            {"smooth trans", Trans{brown, 0.06, 0, 0.5, 0.6}},
+            {"brushed plastic", Brushed{Brushed::Kind::plastic, brown, 0.1, 0.3, 0.15, 0, 0, {}}},
+            {"white brushed metal", Brushed{Brushed::Kind::metal, white, 1, 0.12, 0.5, 0, 0, {}}},
+            {"brushed trans", Brushed{Brushed::Kind::trans, white, 0.1, 0.2, 0.4, 0.8, 0.7, {}}},
+            {"varnish", Ashikhmin{brown, Spectrum::grey(0.05), 20, 60, {}}},
+            {"white varnish", Ashikhmin{white, Spectrum::grey(0.4), 5, 5, {}}},
+            {"Ward's model of both sides",
+             Wgmd{{}, white * 0.3, {}, white * 0.1, {white, white, brown}, 0.25, 0.2, 0.3, 0.3, 0.25, 0.15, {}}}};
 }
 
 std::vector<Named> all_materials()
@@ -50,96 +55,6 @@ std::vector<Named> all_materials()
     all.push_back({"mirror", Mirror{{0.9, 0.8, 0.7}}});
     all.push_back({"light", Light{white}});
     return all;
-}
-
-Direction at(double polar_deg, double azimuth_deg = 0)
-{
-    const double t = polar_deg * radians_per_degree, p = azimuth_deg * radians_per_degree;
-    return {std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)};
-}
-
-const std::vector<double> angles_deg{0, 30, 60, 80, 89, 89.99};
-
-/// Cells of equal solid angle over the sphere: 16 heights, 16 azimuths.
-constexpr int rows = 16, columns = 16;
-
-std::size_t cell_of(const Direction& d)
-{
-    const int row = std::clamp(static_cast<int>((d.z + 1) / 2 * rows), 0, rows - 1);
-    const double turn = std::atan2(d.y, d.x) / (2 * pi) + 0.5;
-    return row * columns + std::clamp(static_cast<int>(turn * columns), 0, columns - 1);
-}
-
-/// Integral of the density over each cell, by a midpoint rule.
-std::vector<double> shares_of(const Bsdf& bsdf, const Direction& to_viewer)
-{
-    // At 88 degrees a highlight of roughness 0.1 is 7 mrad wide in azimuth.
-    const int fine = bsdf.lobes().glossy ? 96 : 16;
-    std::vector<double> shares(rows * columns);
-    const double element_sr = 4 * pi / (rows * columns * fine * fine);
-    for (int i = 0; i < rows * fine; ++i)
-        for (int j = 0; j < columns * fine; ++j) {
-            const double z = (i + 0.5) / (rows * fine) * 2 - 1, r = std::sqrt(1 - z * z);
-            const double azimuth = ((j + 0.5) / (columns * fine) - 0.5) * 2 * pi;
-            shares[(i / fine) * columns + j / fine] +=
-                element_sr * bsdf.density_per_sr(to_viewer, {r * std::cos(azimuth), r * std::sin(azimuth), z});
-        }
-    return shares;
-}
-
-struct Histogram {
-    std::vector<double> counts = std::vector<double>(rows * columns);
-    double lost = 0; ///< absorbed, or in a delta lobe
-    int draws = 0;
-};
-
-constexpr int draws = 200000;
-
-Histogram histogram_of(const Bsdf& bsdf, const Direction& to_viewer, int count = draws)
-{
-    Histogram found;
-    found.draws = count;
-    RandomStream random(11);
-    for (int i = 0; i < count; ++i) {
-        const double choice = random.next();
-        const auto s = bsdf.sample(to_viewer, choice, random.square());
-        if (!s || s->delta)
-            ++found.lost;
-        else
-            ++found.counts[cell_of(s->to_light)];
-    }
-    return found;
-}
-
-/// Chi-square of sample() against density(); what is not scattered is one more cell.
-/// @param error  makes the density of every other column too large and of the others too small, relative
-double probability(const Histogram& found, std::vector<double> shares, double error = 0)
-{
-    std::vector<double> counts = found.counts;
-    double rest = 1;
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            double& share = shares[row * columns + column];
-            share *= 1 + (column % 2 ? error : -error);
-            rest -= share;
-            share *= found.draws;
-        }
-    shares.push_back(std::max(0.0, rest) * found.draws);
-    counts.push_back(found.lost);
-    return chi_square_probability(counts, shares);
-}
-
-/// Mean of the weights: the albedo under uniform light, each channel.
-Spectrum albedo(const Bsdf& bsdf, const Direction& to_viewer, int count = 20000)
-{
-    Spectrum sum;
-    RandomStream random(3);
-    for (int i = 0; i < count; ++i) {
-        const double choice = random.next();
-        if (const auto s = bsdf.sample(to_viewer, choice, random.square()))
-            sum += s->weight;
-    }
-    return sum / count;
 }
 
 } // namespace

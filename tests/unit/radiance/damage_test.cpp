@@ -82,7 +82,7 @@ TEST(SceneDamage, EachKindIsOneMessageWithFileLineAndEntity)
         {"#@view v -vtx", "scene.rad:1: view type"},
         {"#@grid g 1 x 1", "scene.rad:1: word 3 of `#@grid` is no count"},
         {red + "red mesh m 1 m.rtm 0 0", "scene.rad:5: mesh \"m\": \"m.rtm\" is compiled"},
-        {red + "void mesh m 1 m.rtm 0 0", "scene.rad:5: mesh \"m\": a mesh made of `void`"},
+        {red + "void mesh m 1 m.rtm 0 0", "scene.rad:5: mesh \"m\": \"m.rtm\" is compiled"},
         {"#?RADIANCE\noconv\nFORMAT=Radiance_octree\n\n\x01\x02", "scene.rad: "},
     };
     for (const Damage& damage : damages) {
@@ -143,19 +143,6 @@ TEST(SceneDamage, AMissingFileAFolderAndAnEmptyFileAreTold)
     EXPECT_THROW(read_radiance(folder.path(""), report), InputError);
     EXPECT_EQ(folder.error(""), "");
     EXPECT_TRUE(folder.read("\xEF\xBB\xBF# only a comment").root.surfaces.empty());
-}
-
-TEST(SceneDamage, ATypeThatIsNotModelledIsRefusedOnlyWhereItIsUsed)
-{
-    const SceneFolder folder;
-    const std::string bsdf = "void BSDF blinds\n6 0 blinds.xml 0 0 1 .\n0\n0\n";
-    Report report;
-    folder.read(bsdf, report);
-    EXPECT_TRUE(report.has(Finding::unsupported));
-    const std::string message = folder.error(bsdf + "blinds polygon p 0 0 9 0 0 0 1 0 0 0 1 0");
-    EXPECT_TRUE(message.starts_with("scene.rad:5: polygon \"p\": uses ")) << message;
-    EXPECT_NE(message.find("scene.rad:1: BSDF \"blinds\", type BSDF is not modelled yet"), std::string::npos)
-        << message;
 }
 
 } // namespace
