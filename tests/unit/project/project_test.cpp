@@ -270,5 +270,22 @@ TEST(DateTimes, AreReadAsIso8601WritesThem)
         EXPECT_FALSE(parse_date_time(bad)) << bad;
 }
 
+TEST(DateTimes, ZonesOfTheDatabaseKnowTheirSummerTime)
+{
+    if (!std::filesystem::exists("/usr/share/zoneinfo/Europe/Berlin"))
+        GTEST_SKIP() << "the database of zones is not installed";
+    const auto offset = [](const std::string& text) { return parse_date_time(text).value().utc_offset_h.value(); };
+    EXPECT_EQ(offset("2026-01-15T12:00[Europe/Berlin]"), 1);
+    EXPECT_EQ(offset("2026-07-15T12:00:30[Europe/Berlin]"), 2);
+    EXPECT_EQ(offset("2026-07-15T12:00[America/St_Johns]"), -2.5);
+    EXPECT_EQ(offset("2049-01-15T12:00[Asia/Kathmandu]"), 5.75);
+    EXPECT_EQ(offset("2026-10-25T02:30[Europe/Berlin]"), 2); // comes twice: the first of the two
+    for (const char* bad :
+         {"2026-03-29T02:30[Europe/Berlin]", "2026-01-15T12:00[Europe/Atlantis]", "2026-01-15T12:00[../../etc/passwd]",
+          "2026-01-15T12:00[]", "2026-01-15T12:00[Europe/Berlin", "2026-01-15T12:00[/usr/share/zoneinfo/Europe/Berlin]",
+          "2026-01-15T12:00[Europe]"})
+        EXPECT_FALSE(parse_date_time(bad)) << bad;
+}
+
 } // namespace
 } // namespace lightwell
