@@ -93,7 +93,10 @@ std::optional<BsdfSample> AshikhminScattering::sample(Direction to_viewer, doubl
     const double density = density_per_sr(to_viewer, to_light, set);
     if (!(density > 0))
         return {};
-    return BsdfSample{to_light, value_per_sr(to_viewer, to_light, set) * (to_light.z / density), density, false, false};
+    const Spectrum weight = value_per_sr(to_viewer, to_light, set) * (to_light.z / density);
+    if (!weight.is_finite() || !std::isfinite(density)) // so flat that cosines leave the range of numbers
+        return {};
+    return BsdfSample{to_light, weight, density, false, false};
 }
 
 Lobes AshikhminScattering::lobes() const noexcept
