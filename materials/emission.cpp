@@ -33,4 +33,10 @@ double beam_share(const Material& material, double distance_m) noexcept
     return share * share;
 }
 
+bool is_only_seen(const Material& material) noexcept
+{
+    const auto* glow = std::get_if<Glow>(&material);
+    return glow != nullptr && glow->max_radius_m < 0;
+}
+
 } // namespace lightwell

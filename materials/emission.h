@@ -17,4 +17,7 @@ Spectrum emitted_towards(const Material& material, double cos_to_viewer, Directi
 /// Source  Radiance reference manual, `spotlight`: the length of the aim is the focal length
 double beam_share(const Material& material, double distance_m) noexcept;
 
+/// A glow with a negative radius: eyes and mirrors see it, and it lights nothing.
+bool is_only_seen(const Material& material) noexcept;
+
 } // namespace lightwell

@@ -128,7 +128,7 @@ void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& materi
     const Direction direction = walk.ray.direction;
     const Spectrum radiance =
         emitted_towards(material, -dot(hit.normal, direction), -direction) * beam_share(material, walk.way_m);
-    if (radiance.is_black() || walk.aimed)
+    if (radiance.is_black() || walk.aimed || (walk.bent && is_only_seen(material)))
         return;
     const int lamp = sources_.lamp_at(hit);
     double shadow_density = 0;

@@ -3,6 +3,7 @@
 #include "engine/base/frame.h"
 #include "engine/geometry/triangulate.h"
 #include "engine/sources/placed_surfaces.h"
+#include "materials/emission.h"
 
 namespace lightwell {
 namespace {
@@ -152,7 +153,9 @@ struct SourceList::Finder {
     {
         visit_placed(
             scene,
-            [](const Material& material) { return is_emitter(material) && !emitted_radiance(material).is_black(); },
+            [](const Material& material) {
+                return is_emitter(material) && !is_only_seen(material) && !emitted_radiance(material).is_black();
+            },
             [this](const PlacedSurface& placed) {
                 add(placed);
                 return true;

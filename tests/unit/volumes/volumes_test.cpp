@@ -163,6 +163,14 @@ TEST(AmbientLimit, GivesConstantLightWhereNoMoreScatteringsAreFollowed)
     }
 }
 
+TEST(Glow, OfNegativeRadiusIsSeenAndLightsNothing)
+{
+    const std::string only_seen = "void glow dim 0 0 4 5 5 5 -1\ndim sphere s 0 0 4 0 0 2 .5\n";
+    EXPECT_NEAR(seen_radiance(only_seen, {0, 0, 4}), 5, 1e-6);
+    EXPECT_EQ(illuminance_lx(only_seen, {0, 0, 0}), 0);
+    EXPECT_GT(illuminance_lx("void glow dim 0 0 4 5 5 5 1\ndim sphere s 0 0 4 0 0 2 .5\n", {0, 0, 0}), 100);
+}
+
 TEST(Mirror, ThatShowsSomethingElseStillSendsLight)
 {
     // Seen as a grey plate; its light on the floor is that of the mirror.
