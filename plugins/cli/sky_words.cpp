@@ -59,8 +59,9 @@ void parse_time(const std::string& text, PlaceAndTime& when)
 {
     const std::optional<DateTime> time = parse_date_time(text);
     if (!time || !time->utc_offset_h)
-        throw InputError("--time", "\"" + text + "\" is no time with an offset from UTC",
-                         "expected for example 2026-03-21T12:00+01:00, 2026-03-21T11:00Z or 2026-03-21T12:00[Europe/Berlin]");
+        throw InputError(
+            "--time", "\"" + text + "\" is no time with an offset from UTC",
+            "expected for example 2026-03-21T12:00+01:00, 2026-03-21T11:00Z or 2026-03-21T12:00[Europe/Berlin]");
     when.utc_offset_h = *time->utc_offset_h;
     when.year = time->year;
     when.month = time->month;
