@@ -52,7 +52,7 @@ std::string duration_text(double seconds)
 }
 
 ProgressLine::ProgressLine(std::string title)
-    : title_(std::move(title)), terminal_(isatty(STDERR_FILENO) == 1), stage_start_(Clock::now()), last_(stage_start_)
+    : title_(std::move(title)), terminal_(isatty(STDERR_FILENO) == 1), last_(Clock::now())
 {
 }
 
@@ -60,6 +60,18 @@ ProgressLine::~ProgressLine()
 {
     if (terminal_ && shown_)
         std::fputs("\r\033[K", stderr);
+}
+
+std::optional<double> StageTime::left_s(const std::string& stage, double fraction)
+{
+    const auto now = std::chrono::steady_clock::now();
+    if (stage != stage_) {
+        stage_ = stage;
+        start_ = now;
+        start_fraction_ = fraction;
+    }
+    const double passed = std::chrono::duration<double>(now - start_).count(), done = fraction - start_fraction_;
+    return done > 0 ? std::optional(passed / done * (1 - fraction)) : std::nullopt;
 }
 
 Progress ProgressLine::progress()
@@ -71,18 +83,12 @@ void ProgressLine::show(const std::string& stage, double fraction)
 {
     const Clock::time_point now = Clock::now();
     fraction_ = fraction;
-    if (stage != stage_) {
-        stage_ = stage;
-        stage_start_ = now;
-        stage_start_fraction_ = fraction; // tiles of an earlier run count as done, not as fast
-    }
+    const std::optional<double> left_s = time_.left_s(stage, fraction);
     if (now - last_ < (terminal_ ? Clock::duration(terminal_interval) : Clock::duration(log_interval)))
         return;
     last_ = now;
     shown_ = true;
-    const double passed = std::chrono::duration<double>(now - stage_start_).count();
-    const double done = fraction - stage_start_fraction_;
-    const std::string left = done > 0 ? ", " + duration_text(passed / done * (1 - fraction)) + " left" : "";
+    const std::string left = left_s ? ", " + duration_text(*left_s) + " left" : "";
     std::fprintf(stderr, terminal_ ? "\r\033[K%s: %s %3.0f %%%s" : "%s: %s %.0f %%%s\n", title_.c_str(), stage.c_str(),
                  fraction * 100, left.c_str());
     std::fflush(stderr);

@@ -3,6 +3,7 @@
 #include "engine/base/progress.h"
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace lightwell {
@@ -10,6 +11,18 @@ namespace lightwell {
 /// From its making on, Ctrl-C (SIGINT) and SIGTERM ask the work to stop; a second one ends the program at once.
 void catch_interrupts();
 bool interrupted() noexcept;
+
+/// How long a stage will still take, from how fast it has gone since it began.
+class StageTime {
+public:
+    /// @return nothing as long as nothing is done
+    std::optional<double> left_s(const std::string& stage, double fraction);
+
+private:
+    std::string stage_;
+    double start_fraction_ = 0; ///< tiles of an earlier run count as done, not as fast
+    std::chrono::steady_clock::time_point start_{};
+};
 
 /// Progress on stderr: one line that renews itself, with the time left, on a terminal; else a line every 10 s.
 class ProgressLine {
@@ -30,12 +43,12 @@ private:
     using Clock = std::chrono::steady_clock;
     void show(const std::string& stage, double fraction);
 
-    std::string title_, stage_;
+    std::string title_;
     bool terminal_;
     bool shown_ = false;
     double fraction_ = 0;
-    double stage_start_fraction_ = 0;
-    Clock::time_point stage_start_, last_;
+    StageTime time_;
+    Clock::time_point last_;
 };
 
 /// "4.2 s", "42 s", "3 min 05 s", "2 h 10 min".

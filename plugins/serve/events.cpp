@@ -139,18 +139,6 @@ void Events::error(std::int64_t id, const std::string& sentence)
     line(id, text_of(json));
 }
 
-std::optional<double> StageTime::left_s(const std::string& stage, double fraction)
-{
-    const auto now = std::chrono::steady_clock::now();
-    if (stage != stage_) {
-        stage_ = stage;
-        start_ = now;
-        start_fraction_ = fraction;
-    }
-    const double passed = std::chrono::duration<double>(now - start_).count(), done = fraction - start_fraction_;
-    return done > 0 ? std::optional(passed / done * (1 - fraction)) : std::nullopt;
-}
-
 Progress Told::part(double begin, double end)
 {
     return {[this, begin, end](const std::string& stage, double fraction) { tell(stage, fraction, begin, end); },

@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/progress.h"
+#include "plugins/cli/terminal.h"
 #include "plugins/serve/request.h"
 
 #include <atomic>
@@ -44,18 +45,6 @@ private:
     std::mutex mutex_;
     std::optional<std::int64_t> silent_; ///< id that has had its last word
     std::atomic<bool> broken_ = false;
-};
-
-/// How long a stage will still take, from how fast it has gone since it began.
-class StageTime {
-public:
-    /// @return nothing as long as nothing is done
-    std::optional<double> left_s(const std::string& stage, double fraction);
-
-private:
-    std::string stage_;
-    double start_fraction_ = 0;
-    std::chrono::steady_clock::time_point start_{};
 };
 
 /// Progress of one request as one fraction that only grows, at most ten times a second, and the wish to stop it.

@@ -20,8 +20,8 @@ from lightwell_bridge.engine import EngineError
 from lightwell_bridge.ply import PlyMesh
 from lightwell_bridge.scene_folder import SceneFolder
 
-# A host cancels and wants to go on: what it feels, and what a machine full of other work may make of it.
-MEDIAN_S, MOST_S = 0.2, 1.0
+# Nine of ten requests stop within this time; what a machine full of other work may make of the tenth.
+SOON_S, MOST_S = 0.2, 1.0
 
 
 def gone(pid, seconds=15):
@@ -52,7 +52,7 @@ class Cancelling(WithEngine):
         self.assertGreater(len(took), len(delays) * 2 // 3)
         values = sorted(took.values())
         print(f"{len(values)} cancelled: median {1000 * statistics.median(values):.0f} ms, most {1000 * values[-1]:.0f} ms")
-        self.assertLess(statistics.median(values), MEDIAN_S, took)
+        self.assertLess(values[int(0.9 * (len(values) - 1))], SOON_S, took)
         self.assertLess(values[-1], MOST_S, took)
 
     def test_a_large_picture_stops_at_any_moment(self):
