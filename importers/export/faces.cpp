@@ -3,6 +3,7 @@
 #include "engine/base/frame.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace lightwell {
 namespace {
@@ -27,12 +28,27 @@ Point on_circle(const Point& centre, const Frame& frame, const Sector& sector, d
     return centre + (frame.x * std::cos(angle) + frame.y * std::sin(angle)) * radius;
 }
 
+/// Both directions of an axis have one frame, so that a side and its caps share their corners to the last bit: a lamp
+/// that is closed stays closed.
+struct Turn {
+    Frame frame;
+    bool backwards; ///< seen along the axis that was given
+};
+Turn turn_about(const Sector& sector, const Direction& axis)
+{
+    if (!sector.is_whole())
+        return {sector_frame(sector, axis), false};
+    const bool backwards = std::tie(axis.x, axis.y, axis.z) < std::make_tuple(0.0, 0.0, 0.0);
+    const Vec3 no_minus_zero; // which frame_about() would tell from zero
+    return {frame_about((backwards ? -axis : axis) + no_minus_zero), backwards};
+}
+
 std::vector<Face> cone_faces(const Cone& cone, bool inwards, int of_turn)
 {
-    const Frame frame = sector_frame(cone.sector, normalized(cone.ends[1] - cone.ends[0]));
+    const Turn turn = turn_about(cone.sector, normalized(cone.ends[1] - cone.ends[0]));
     const int count = chords_of(cone.sector, of_turn);
     const auto at = [&](int end, int i) {
-        return on_circle(cone.ends[end], frame, cone.sector, cone.radii[end], i, count);
+        return on_circle(cone.ends[end], turn.frame, cone.sector, cone.radii[end], i, count);
     };
     std::vector<Face> faces;
     for (int i = 0; i < count; ++i) {
@@ -42,7 +58,7 @@ std::vector<Face> cone_faces(const Cone& cone, bool inwards, int of_turn)
         face.push_back(at(1, i + 1));
         if (cone.radii[1] > 0)
             face.push_back(at(1, i));
-        if (inwards)
+        if (inwards != turn.backwards)
             std::reverse(face.begin(), face.end());
         faces.push_back(std::move(face));
     }
@@ -51,15 +67,19 @@ std::vector<Face> cone_faces(const Cone& cone, bool inwards, int of_turn)
 
 std::vector<Face> ring_faces(const Ring& ring, double tolerance)
 {
-    const Frame frame = sector_frame(ring.sector, ring.normal);
+    const Turn turn = turn_about(ring.sector, ring.normal);
     const int count = chords_of(ring.sector, chords_of_turn(ring.outer_radius, tolerance));
-    const auto at = [&](double radius, int i) { return on_circle(ring.centre, frame, ring.sector, radius, i, count); };
+    const auto at = [&](double radius, int i) {
+        return on_circle(ring.centre, turn.frame, ring.sector, radius, i, count);
+    };
     std::vector<Face> faces;
     for (int i = 0; i < count; ++i) {
         Face face{at(ring.outer_radius, i), at(ring.outer_radius, i + 1)};
         if (ring.inner_radius > 0)
             face.push_back(at(ring.inner_radius, i + 1));
         face.push_back(at(ring.inner_radius, i));
+        if (turn.backwards)
+            std::reverse(face.begin(), face.end());
         faces.push_back(std::move(face));
     }
     return faces;

@@ -1,5 +1,6 @@
 #include "engine/base/errors.h"
 #include "importers/export/export.h"
+#include "importers/export/faces.h"
 #include "importers/formats/formats.h"
 #include "importers/layers.h"
 
@@ -299,6 +300,31 @@ TEST(RoundTrip, ThroughGlbKeepsAreasAndBoundsToSinglePrecisionAndTheLedger)
         layers_agree(again, third);
         RC_ASSERT(third.ledger.made_count() == again.ledger.made_count());
     }));
+}
+
+/// A side and its caps, along any axis: as facets they hang together by the same corners, so that a lamp stays closed.
+TEST(Export, ARoundBodyIsClosedAsFacets)
+{
+    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -2}, Vec3{0.6, 0, -0.8}}) {
+        SCOPED_TRACE(axis.x);
+        const Point foot{1, 2, 3}, head = foot + axis;
+        const Direction up = normalized(head - foot);
+        Part part;
+        part.add_cone({{foot, head}, {0.1, 0.1}}, Shape::cylinder, void_modifier, "side");
+        part.add_ring({foot, -up, 0, 0.1}, void_modifier, "bottom");
+        part.add_ring({head, up, 0, 0.1}, void_modifier, "top");
+        std::map<std::array<double, 6>, int> edges; // from one corner to another, less those the other way
+        for (const Surface& surface : part.surfaces) {
+            bool approximated = false;
+            for (const auto& face : faces_of(part, surface, 1e-3, approximated))
+                for (std::size_t i = 0; i < face.size(); ++i) {
+                    const Point a = face[i], b = face[(i + 1) % face.size()];
+                    ++edges[{a.x, a.y, a.z, b.x, b.y, b.z}];
+                    --edges[{b.x, b.y, b.z, a.x, a.y, a.z}];
+                }
+        }
+        EXPECT_TRUE(std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; }));
+    }
 }
 
 TEST(Export, HostileNamesStayOneNameEach)
