@@ -1,4 +1,3 @@
-#include "engine/scene/add_sky.h"
 #include "importers/formats/formats.h"
 #include "importers/layer_report.h"
 #include "importers/radiance/radiance.h"
@@ -36,7 +35,7 @@ Status import_drawing(const ImportCommand& options, std::ostream& out, std::ostr
     const std::vector<RuleHits> rules =
         apply_layer_map(imported, options.map.empty() ? LayerMap{} : read_layer_map(options.map));
     if (!options.sky.type.empty())
-        add_sky(imported.scene, sky_of(options.sky).model);
+        add_described_sky(imported.scene, sky_of(options.sky));
     write_radiance(imported.scene, options.output, options.write, imported.report);
     err << imported.report;
     update_counts(rows, imported.ledger);

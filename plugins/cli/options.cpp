@@ -45,8 +45,10 @@ ImportOptions import_options(const ImportWords& words)
 void add_sky_words(CLI::App& command, SkyWords& words)
 {
     command
-        .add_option("--sky", words.type,
-                    "adds a CIE sky: clear, clear-no-sun, intermediate, intermediate-no-sun, overcast, uniform")
+        .add_option(
+            "--sky", words.type,
+            "adds a CIE sky: clear, clear-no-sun, intermediate, intermediate-no-sun, overcast, uniform, cie-1 to "
+            "cie-15")
         ->check(CLI::IsMember(sky_names()))
         ->type_name("TYPE");
     command.add_option("--place", words.place, "latitude,longitude in degrees, north and east positive: 52.5,13.4")

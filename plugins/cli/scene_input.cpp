@@ -3,7 +3,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/base/text.h"
-#include "engine/scene/add_sky.h"
 #include "importers/formats/formats.h"
 #include "importers/layers.h"
 #include "importers/radiance/radiance.h"
@@ -101,7 +100,7 @@ LitScene light_scene(const SceneInputs& inputs)
     if (!inputs.map.empty())
         lit.provenance["map"] = inputs.map.string();
     if (inputs.sky) {
-        add_sky(lit.scene, inputs.sky->model);
+        add_described_sky(lit.scene, *inputs.sky);
         lit.provenance["sky"] = inputs.sky->description;
     }
     require_light(lit.scene, files);

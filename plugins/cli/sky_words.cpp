@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
+#include "engine/scene/add_sky.h"
 #include "importers/project/date_time.h"
 
 #include <algorithm>
@@ -27,6 +28,19 @@ constexpr std::array<NamedSky, 6> skies{{
     {"uniform", "uniform sky", CieSky::uniform, false},
 }};
 
+/// The general skies of the CIE: `cie-1` to `cie-15`.
+constexpr const char* general_prefix = "cie-";
+constexpr int general_skies = 15;
+
+/// @return 0 for other words
+int general_number(const std::string& type)
+{
+    for (int number = 1; number <= general_skies; ++number)
+        if (type == general_prefix + std::to_string(number))
+            return number;
+    return 0;
+}
+
 std::string tenths(double value)
 {
     char text[32];
@@ -45,6 +59,13 @@ std::string time_text(const PlaceAndTime& when)
     return text;
 }
 
+std::string sun_and_place(const SunPosition& sun, const PlaceAndTime& when)
+{
+    return ", sun at altitude " + tenths(sun.altitude_deg) + ", azimuth " + tenths(sun.azimuth_deg) +
+           " degrees (clockwise from north), " + time_text(when) + ", latitude " + shortest(when.latitude_deg) +
+           ", longitude " + shortest(when.longitude_deg);
+}
+
 } // namespace
 
 std::vector<std::string> sky_names()
@@ -52,7 +73,17 @@ std::vector<std::string> sky_names()
     std::vector<std::string> names;
     for (const NamedSky& sky : skies)
         names.emplace_back(sky.name);
+    for (int number = 1; number <= general_skies; ++number)
+        names.push_back(general_prefix + std::to_string(number));
     return names;
+}
+
+void add_described_sky(Scene& scene, const DescribedSky& sky)
+{
+    if (sky.general)
+        add_general_sky(scene, *sky.general);
+    else
+        add_sky(scene, sky.model);
 }
 
 void parse_time(const std::string& text, PlaceAndTime& when)
@@ -84,8 +115,10 @@ void parse_place(const std::string& text, PlaceAndTime& when)
 DescribedSky sky_of(const SkyWords& words)
 {
     const auto* sky = std::find_if(skies.begin(), skies.end(), [&](const NamedSky& s) { return s.name == words.type; });
-    if (sky == skies.end())
-        throw InputError("--sky", "\"" + words.type + "\" is no sky", "clear, intermediate, overcast or uniform");
+    const int general = general_number(words.type);
+    if (sky == skies.end() && general == 0)
+        throw InputError("--sky", "\"" + words.type + "\" is no sky",
+                         "clear, intermediate, overcast, uniform, or cie-1 to cie-15");
     if (words.place.empty() || words.time.empty())
         throw InputError("--sky", std::string(words.place.empty() ? "--place" : "--time") + " is missing",
                          "a sky needs --place 52.5,13.4 and --time 2026-03-21T12:00+01:00");
@@ -94,6 +127,13 @@ DescribedSky sky_of(const SkyWords& words)
     PlaceAndTime when;
     parse_place(words.place, when);
     parse_time(words.time, when);
+    if (general > 0) {
+        const SunPosition sun = sun_position(when);
+        const SkyOptions options{CieSky::clear, true, words.turbidity, words.ground_reflectance};
+        return {{},
+                "CIE general sky " + std::to_string(general) + sun_and_place(sun, when),
+                make_general_sky(general, options, sun_direction(sun, words.north_deg))};
+    }
     return describe_sky({sky->kind, sky->with_sun, words.turbidity, words.ground_reflectance}, when, words.north_deg);
 }
 
@@ -104,10 +144,7 @@ DescribedSky describe_sky(const SkyOptions& options, const PlaceAndTime& when, d
     });
     const SunPosition sun = sun_position(when);
     return {make_sky(options, sun_direction(sun, north_deg)),
-            (sky == skies.end() ? std::string("sky") : sky->description) +
-                (", sun at altitude " + tenths(sun.altitude_deg)) + ", azimuth " + tenths(sun.azimuth_deg) +
-                " degrees (clockwise from north), " + time_text(when) + ", latitude " + shortest(when.latitude_deg) +
-                ", longitude " + shortest(when.longitude_deg)};
+            (sky == skies.end() ? std::string("sky") : sky->description) + sun_and_place(sun, when)};
 }
 
 } // namespace lightwell

@@ -1,7 +1,9 @@
 #pragma once
 
-#include "engine/sky/sky.h"
+#include "engine/scene/scene.h"
+#include "engine/sky/general_sky.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +22,12 @@ std::vector<std::string> sky_names();
 
 /// A sky with the words that describe it for the header of results.
 struct DescribedSky {
-    SkyModel model;
+    SkyModel model;          ///< unless it is one of the general skies
     std::string description; ///< "clear sky, sun at altitude 37.5, azimuth 175.1 degrees, ..."
+    std::optional<GeneralSky> general = std::nullopt;
 };
 DescribedSky describe_sky(const SkyOptions& options, const PlaceAndTime& when, double north_deg);
+void add_described_sky(Scene& scene, const DescribedSky& sky);
 /// @throws InputError that names the option, what was given and what is expected
 DescribedSky sky_of(const SkyWords& words);
 

@@ -74,6 +74,39 @@ TEST(SkyWords, PutTheSunWhereTheAlmanacDoes)
     EXPECT_FALSE(sky_of(words).model.with_sun);
 }
 
+TEST(SkyWords, GeneralSkiesHaveAsMuchLightAsTheSkyTheyTakeAfter)
+{
+    SkyWords words;
+    words.place = "52.5,13.4";
+    words.time = "2026-03-21T12:14+01:00";
+    for (const auto& [type, like] : {std::pair("cie-1", "overcast"), {"cie-8", "intermediate"}, {"cie-12", "clear"}}) {
+        words.type = type;
+        const DescribedSky sky = sky_of(words);
+        ASSERT_TRUE(sky.general) << type;
+        EXPECT_NE(sky.description.find("sky " + std::string(type).substr(4) + ", sun at"), std::string::npos);
+        words.type = like;
+        const SkyModel model = sky_of(words).model;
+        EXPECT_DOUBLE_EQ(sky.general->ground, model.ground) << type;
+        EXPECT_DOUBLE_EQ(sky.general->sun_radiance, model.with_sun ? model.sun_radiance : 0) << type;
+    }
+    words.type = "cie-5"; // uniform: its radiance is the irradiance over pi
+    Scene scene;
+    const DescribedSky uniform = sky_of(words);
+    add_described_sky(scene, uniform);
+    ASSERT_EQ(scene.root.surfaces.size(), 2u); // no sun
+    words.type = "overcast";                   // whose mean is 7/9 of the zenith
+    EXPECT_NEAR(uniform.general->normalization * uniform.general->shape.relative(1, 1),
+                sky_of(words).model.zenith * 7 / 9, 1e-3 * sky_of(words).model.zenith);
+    words.type = "cie-12";
+    Scene sunny;
+    add_described_sky(sunny, sky_of(words));
+    EXPECT_EQ(sunny.root.surfaces.size(), 3u);
+    for (const char* bad : {"cie-0", "cie-16", "cie-", "cie-1x"}) {
+        words.type = bad;
+        EXPECT_THROW(sky_of(words), InputError) << bad;
+    }
+}
+
 TEST(EffortWords, AcceptPercentAndFractions)
 {
     EXPECT_DOUBLE_EQ(parse_accuracy("5%"), 0.05);
