@@ -493,7 +493,7 @@ class Validate(Case):
         self.assertEqual([row["passed"] for row in wrong["rows"]], [False] * len(rows))
 
     def test_words_that_mean_nothing_are_refused(self):
-        self.expect(BAD_INPUT, "validate", "--perturb", "mirrors", says=["use direct, sky, glass or interreflection"])
+        self.expect(BAD_INPUT, "validate", "--perturb", "mirrors", says=["use direct, specular, ambient (or interreflection), sky or glass"])
         self.expect(BAD_INPUT, "validate", "--case", "cl_sun_dics", says=["is in the name of no case", "cl_sun_disc_0.2665"])
         self.expect(USAGE, "validate", "--quick", "--full")
 

@@ -126,7 +126,7 @@ TEST(GltfPoses, MorphTargetsCountWithTheWeightsOfTheNodeElseOfTheMesh)
 {
     const Imported imported = import_gltf(fixtures / "poses.gltf", {});
     const Json truth = truth_of("poses");
-    const Measured found = measure(imported);
+    const MeasuredModel found = measure(imported);
     for (const auto& [layer, area] : truth["areas_m2"].items())
         EXPECT_NEAR(found.layers.at(layer).area_m2, area.get<double>(), 1e-6) << layer;
     const Box moved = surface_bounds(imported.scene.root, surface_named(imported, "By node"));

@@ -77,7 +77,7 @@ TEST(Gltf, LayersComeFromExtrasThenNodesAndAreasSurviveMirroringAndStretching)
     const Imported imported = import_gltf(fixtures / "nodes.gltf", {});
     validate(imported.scene);
     const Json truth = truth_of("nodes");
-    const Measured found = measure(imported);
+    const MeasuredModel found = measure(imported);
     EXPECT_EQ(found.layers.size(), truth["layers"].size());
     for (const auto& [layer, area] : truth["layers"].items()) {
         ASSERT_TRUE(found.layers.count(layer)) << layer;
@@ -132,7 +132,7 @@ TEST(Gltf, EveryPackingOfNumbersGivesTheSamePanel)
     const Imported imported = import_gltf(fixtures / "packings.gltf", {});
     validate(imported.scene);
     const Json truth = truth_of("packings");
-    const Measured found = measure(imported);
+    const MeasuredModel found = measure(imported);
     std::set<std::string> with_normals;
     for (const Surface& surface : imported.scene.root.surfaces)
         if (!imported.scene.root.meshes[surface.index]->normals.empty())
@@ -159,7 +159,7 @@ TEST(Gltf, StripsAndFansUnrollAndPointsAndLinesAreCounted)
 {
     const Imported imported = import_gltf(fixtures / "modes.gltf", {});
     const Json truth = truth_of("modes");
-    const Measured found = measure(imported);
+    const MeasuredModel found = measure(imported);
     const std::map<std::string, Vec3> front = fronts(imported);
     EXPECT_EQ(found.layers.size(), truth["area_m2"].size());
     for (const auto& [layer, area] : truth["area_m2"].items()) {

@@ -65,7 +65,7 @@ bool bounds_agree(const Box& bounds, const Json& truth)
 std::set<std::string> differences(const Imported& imported, const Json& truth)
 {
     std::set<std::string> items;
-    const Measured found = measure(imported);
+    const MeasuredModel found = measure(imported);
     if (skipped_for(imported, "damaged") > 0)
         items.insert("damaged parts left out");
     if (noted(imported.report, "triangle without area") + skipped_for(imported, "zero area") > 0)
@@ -194,7 +194,7 @@ TEST(SharedGltf, OneWrongByteInPackedDataNeverCrashes)
 }
 
 /// Area of the nodes whose layer begins so.
-double area_of(const Measured& found, const std::string& start)
+double area_of(const MeasuredModel& found, const std::string& start)
 {
     double area = 0;
     for (const auto& [layer, share] : found.layers)
@@ -213,7 +213,7 @@ TEST(SharedGltf, TheOfficeKeepsItsAreasCamerasAndCopies)
         SCOPED_TRACE(name);
         const Imported office = import_gltf(folder / name, {});
         validate(office.scene);
-        const Measured found = measure(office);
+        const MeasuredModel found = measure(office);
         EXPECT_NEAR(area_of(found, "Floor"), 24, 1e-4);
         EXPECT_NEAR(area_of(found, "Ceiling"), 24, 1e-4);
         EXPECT_NEAR(area_of(found, "Wall ") + area_of(found, "Door leaf"), 53.55, 1e-4);
@@ -242,7 +242,7 @@ TEST(SharedGltf, TheBuildingHasItsPlaneAreasAndBounds)
     const Json truth = Json::parse(std::ifstream(folder / "truth.json"));
     const Imported building = import_gltf(folder / "building.glb", {});
     validate(building.scene);
-    const Measured found = measure(building);
+    const MeasuredModel found = measure(building);
     for (int axis = 0; axis < 3; ++axis) { // curved parts are cut into chords
         const auto i = static_cast<std::size_t>(axis);
         EXPECT_NEAR(found.bounds.low[axis], truth["bbox_m"][0][i].get<double>(), 5e-3);

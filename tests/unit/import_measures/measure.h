@@ -16,7 +16,7 @@ struct Share {
 };
 
 /// What the truth beside a file speaks of, with instances expanded.
-struct Measured {
+struct MeasuredModel {
     std::map<std::string, Share> layers, materials, groups, blocks;
     Share total;
     Box bounds;
@@ -44,9 +44,9 @@ inline void measure_surface(const Part& part, const Surface& surface, const Affi
     }
 }
 
-inline Measured measure(const Imported& imported)
+inline MeasuredModel measure(const Imported& imported)
 {
-    Measured measured;
+    MeasuredModel measured;
     visit_expanded(imported.scene,
                    [&](const Part& part, const Surface& surface, const Affine& to_world, ModifierId modifier) {
                        const SurfaceKey& key = imported.keys.at(static_cast<std::size_t>(modifier));

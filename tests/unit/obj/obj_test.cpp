@@ -48,7 +48,7 @@ Imported import_text(const std::string& text, const ImportOptions& options = {})
 
 void expect_layers(const Imported& imported, const Json& truth)
 {
-    const Measured found = measure(imported);
+    const MeasuredModel found = measure(imported);
     EXPECT_EQ(found.layers.size(), truth["layers"].size());
     for (const auto& [layer, expected] : truth["layers"].items()) {
         SCOPED_TRACE(layer);
@@ -162,7 +162,7 @@ TEST(Obj, WarpedFacesAreCutInsideTheirOutlineAndTheDeviationIsNoted)
 {
     const Imported warped = import_obj(fixtures / "warped.obj", {});
     const Json truth = truth_of("warped");
-    const Measured found = measure(warped);
+    const MeasuredModel found = measure(warped);
     const double square = found.layers.at("square").area_m2;
     EXPECT_NEAR(std::fmin(std::fabs(square - truth["square_area_either_m2"][0].get<double>()),
                           std::fabs(square - truth["square_area_either_m2"][1].get<double>())),

@@ -56,7 +56,7 @@ std::map<std::string, std::size_t> counts_in(const Json& truth)
 }
 
 /// Polygons by number of corners; what went into meshes can only be counted as triangles.
-bool sizes_agree(const Imported& imported, const Measured& found, const Json& truth)
+bool sizes_agree(const Imported& imported, const MeasuredModel& found, const Json& truth)
 {
     std::map<std::string, std::size_t> sizes;
     for (const Polygon& polygon : imported.scene.root.polygons)
@@ -70,7 +70,7 @@ bool sizes_agree(const Imported& imported, const Measured& found, const Json& tr
     return found.total.triangles == truth["triangles_fan"].get<std::size_t>();
 }
 
-bool areas_agree(const Measured& found, const Json& truth)
+bool areas_agree(const MeasuredModel& found, const Json& truth)
 {
     for (const auto& [name, area] : truth.items()) {
         const double expected = area.get<double>(); // given with six digits
@@ -103,7 +103,7 @@ bool bounds_agree(const Box& bounds, const Json& truth)
 std::set<std::string> differences(const Imported& imported, const Json& truth)
 {
     std::set<std::string> items;
-    const Measured found = measure(imported);
+    const MeasuredModel found = measure(imported);
     const auto check = [&](bool agrees, const char* item) {
         if (!agrees)
             items.insert(item);
@@ -231,7 +231,7 @@ TEST(SharedObj, TheOfficeKeepsEveryRoomSurfaceWithItsArea)
         SCOPED_TRACE(name);
         const Imported office = import_obj(folder / name, as_written());
         validate(office.scene);
-        const Measured found = measure(office);
+        const MeasuredModel found = measure(office);
         const auto layer_area = [&](const std::string& start) {
             double area = 0;
             for (const auto& [layer, share] : found.layers)
