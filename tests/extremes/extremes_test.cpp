@@ -259,7 +259,9 @@ TEST(Extremes, ReflectanceUpToAMillionthBelowOne)
     for (const auto& [key, expected] : entry["expected"].items()) {
         const double reflectance = std::stod(key.substr(key.find('=') + 1));
         GridSettings settings;
-        settings.accuracy = reflectance <= 0.95 ? 0.002 : 0.008;
+        settings.accuracy = reflectance <= 0.95 ? 0.002 : reflectance < 0.99995 ? 0.008 : 0.05;
+        if (reflectance <= 0.95)
+            settings.samples = 1024; // the accuracy is that of the median sensor, and there are three
         const GridResult result = Simulation(white_box(reflectance)).illuminance(grid, settings);
         const double exact = expected["radiosity"];
         const double tolerance = reflectance <= 0.95 ? 0.005 : reflectance <= 0.99 ? 0.01 : 0.05;
