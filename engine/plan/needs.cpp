@@ -135,8 +135,10 @@ private:
             return;
         }
         if (std::holds_alternative<Mist>(material) || std::holds_alternative<Antimatter>(material) ||
-            std::holds_alternative<Prism>(material))
-            return; // they scatter by no lobe of their own
+            std::holds_alternative<Prism>(material)) {
+            needs.passages += usage;
+            return;
+        }
         reflecting_m2_ += usage.area_m2;
         reflected_m2_ += usage.area_m2 * reflectance;
         reflectances_[reflectance] += usage.area_m2;

@@ -24,6 +24,7 @@ struct SceneNeeds {
     Need bodies; ///< solid transparent bodies
     Need planar_mirrors;
     Need curved_mirrors; ///< no virtual source can stand for their images
+    Usage passages;      ///< mist, antimatter and prisms: light goes on there by no lobe
 
     // What sends light.
     Usage lamps;      ///< Light, Illum, Glow and Spotlight at finite distance; the next three are among them
@@ -45,6 +46,13 @@ struct SceneNeeds {
     /// A path needs light to arrive at all.
     bool lit() const noexcept { return lamps.surfaces > 0 || suns > 0 || wide_sources > 0; }
     bool scatters() const noexcept { return diffuse_reflection || diffuse_transmission || glossy || smooth; }
+    /// Light ends where it falls, and lamps and suns send all there is: shadow rays find everything.
+    bool only_direct() const noexcept
+    {
+        const bool sent_on = scatters() || panes || bodies || planar_mirrors || curved_mirrors ||
+                             passages.surfaces > 0 || illums.surfaces > 0 || patterned;
+        return !sent_on && wide_sources == 0;
+    }
 };
 
 /// @param scene  one that validate() has accepted

@@ -26,6 +26,8 @@ struct SensorTask {
     const std::vector<SurfacePlace>& places;
     std::uint64_t seed;
     const DeepField* deep; ///< null: plain paths, or records of the cache
+    std::optional<Spectrum> only_direct =
+        {}; ///< irradiance beside that of lamps and suns, W/m^2, where no other is wanted
 
     /// Illuminance of a sensor, lx, by replicate.
     /// @param same_paths  all replicates follow the same paths, so that only their ambient light differs
@@ -35,13 +37,30 @@ struct SensorTask {
         const auto each = static_cast<std::uint32_t>(samples / replicates);
         for (int r = 0; r < replicates; ++r) {
             const std::uint64_t key = mix_bits(seed, static_cast<std::uint64_t>(same_paths ? 0 : r));
-            found[static_cast<std::size_t>(r)] =
-                illuminance_of(deep != nullptr ? by_hemisphere(i, r, key, each) : by_paths(i, r, key, each)).value;
+            const Spectrum irradiance = only_direct       ? direct(i, key, each).irradiance + *only_direct
+                                        : deep != nullptr ? by_hemisphere(i, r, key, each)
+                                                          : by_paths(i, r, key, each);
+            found[static_cast<std::size_t>(r)] = illuminance_of(irradiance).value;
         }
         return found;
     }
 
 private:
+    struct Direct {
+        Spectrum irradiance;
+        double lamp_share = 0; ///< of the hemisphere, cosine-weighted
+    };
+    Direct direct(std::size_t i, std::uint64_t key, std::uint32_t tests) const
+    {
+        Direct sum;
+        for (std::uint32_t n = 0; n < tests; ++n) {
+            PathRandom random(mix_bits(key, direct_salt), i, n);
+            const DirectIrradiance found = tracer.sensor_direct(places[i], random);
+            sum.irradiance += (found.lamps + found.suns) / tests;
+            sum.lamp_share += found.lamp_share / tests;
+        }
+        return sum;
+    }
     Spectrum by_paths(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
     {
         Spectrum sum;
@@ -53,15 +72,8 @@ private:
     }
     Spectrum by_hemisphere(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
     {
-        const std::uint32_t tests = std::max(1u, count / rays_a_test);
-        Spectrum direct, ambient;
-        double lamp_share = 0;
-        for (std::uint32_t n = 0; n < tests; ++n) {
-            PathRandom random(mix_bits(key, direct_salt), i, n);
-            const DirectIrradiance found = tracer.sensor_direct(places[i], random);
-            direct += (found.lamps + found.suns) / tests;
-            lamp_share += found.lamp_share / tests;
-        }
+        const Direct tested = direct(i, key, std::max(1u, count / rays_a_test));
+        Spectrum ambient;
         const Frame frame = frame_about(places[i].normal);
         std::vector<Dependence> dependences;
         std::uint32_t others = 0;
@@ -74,7 +86,8 @@ private:
             others += arrival.met_lamp ? 0 : 1;
         }
         // How much of the hemisphere shows lamps is known better from the shadow rays than from these.
-        return direct + (others > 0 ? ambient * ((1 - std::min(1.0, lamp_share)) / others) : Spectrum{});
+        return tested.irradiance +
+               (others > 0 ? ambient * ((1 - std::min(1.0, tested.lamp_share)) / others) : Spectrum{});
     }
 };
 
@@ -225,7 +238,9 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         return result;
     Techniques techniques = settings.techniques;
     techniques.cache = techniques.cache && receivers.size() >= many_sensors;
-    const bool plain = settings.unbiased || !settings.techniques.deep_field || parts_->preparation.ambient_limit;
+    const std::optional<AmbientLimit>& limit = parts_->preparation.ambient_limit;
+    const bool plain =
+        settings.unbiased || !settings.techniques.deep_field || limit || parts_->plan.needs.only_direct();
     const bool own_field = !plain && !techniques.cache && settings.ambient_file.file.empty();
     AmbientEffort effort = effort_of(settings);
     if (own_field)
@@ -242,8 +257,10 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
             add_records(ambient, receivers, grid.spacing_m);
         ambient_rays += rays.next();
     }
-    const SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed,
-                          plain || techniques.cache ? nullptr : &ambient.deep()};
+    SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed,
+                    plain || techniques.cache ? nullptr : &ambient.deep()};
+    if (!settings.unbiased && (limit ? limit->bounces == 0 : parts_->plan.needs.only_direct()))
+        task.only_direct = limit ? limit->radiance * pi : Spectrum{};
     result.samples = whole_replicates(settings.samples);
     PilotRun pilot(task, settings.threads, progress, grid.name);
     double shared = plain || (!own_field && settings.samples > 0) ? 0 : pilot.shared_error();
@@ -269,7 +286,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     }
     result.mean_standard_error = Illuminance{all.mean_error};
     result.median_relative_error = median_relative(all.values, all.errors);
-    if (!plain) {
+    if (!plain || task.only_direct) {
         Teller check(progress, "check, grid " + grid.name, checked_sensors);
         add_bias(result, {parts_->tracer, receivers, mix_bits(settings.seed), nullptr}, settings.threads, check);
     }

@@ -255,7 +255,7 @@ PictureResult Simulation::render(const View& view, const PictureSettings& settin
     AmbientBuild ambient(*parts_, effort_of(settings), settings.techniques, stop_when_asked(progress),
                          plain ? "" : settings.ambient_file.file);
     RayLaps rays;
-    if (!plain) {
+    if (!plain && !parts_->plan.needs.only_direct()) {
         Teller teller(progress, "ambient light, view " + view.name, 5);
         build(ambient, {camera, parts_->tracer, settings.width, settings.height}, settings.techniques, settings.threads,
               teller);

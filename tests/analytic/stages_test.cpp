@@ -73,6 +73,26 @@ TEST(Stages, EachIsBuiltForWhatNeedsIt)
     EXPECT_EQ(window.mirrors, 0u);
 }
 
+/// A disc of radius 1 at height 2 over black surfaces, one of which hides half of it from the sensor: E is half of
+/// pi L R^2 / (R^2 + h^2). Without ambient light there is nothing to prepare.
+TEST(Stages, WhereLightEndsOnBlackSurfacesOnlyShadowRaysAreTraced)
+{
+    Scene scene;
+    scene.root.add_ring({{0, 0, 2}, {0, 0, -1}, 0, 1}, scene.add_material("lamp", Light{Spectrum::grey(10)}), "disc");
+    const ModifierId black = scene.add_material("black", Plastic{});
+    scene.root.add_polygon({{0, -9, 1}, {9, -9, 1}, {9, 9, 1}, {0, 9, 1}}, black, "screen");
+    SensorGrid grid;
+    grid.sensors = {{{0, 0, 0}, {0, 0, 1}}};
+    const GridResult found = Simulation(std::move(scene)).illuminance(grid, {});
+    EXPECT_EQ(found.work.ambient_rays.total(), 0);
+    EXPECT_EQ(found.work.deep_sites, 0u);
+    EXPECT_EQ(found.work.value_rays.total(), found.work.value_rays.shadow);
+    const double expected = 0.5 * pi * 10 * lumens_per_watt * 1 / (1 + 4.0);
+    EXPECT_NEAR(found.values[0].value, expected, 5 * found.standard_errors[0].value);
+    EXPECT_LT(found.standard_errors[0].value, 0.01 * expected);
+    EXPECT_GT(found.standard_errors[0].value, 0);
+}
+
 TEST(Stages, WhatThePlanSwitchesOffIsNotBuilt)
 {
     const auto mirrored = [] {

@@ -127,6 +127,22 @@ TEST(SceneNeeds, ABillionCopiesAreCountedWithoutVisitingThem)
     EXPECT_FALSE(needs.grey);
 }
 
+TEST(SceneNeeds, DirectLightIsAllThereIsUntilASurfaceSendsLightOn)
+{
+    Scene black;
+    add_square(black.root, black.add_material("black", Plastic{}), 0);
+    add_square(black.root, black.add_material("lamp", Light{Spectrum::grey(10)}), 1);
+    EXPECT_TRUE(needs_of(black).only_direct());
+    EXPECT_FALSE(needs_of(grey_room()).only_direct());
+    for (const Material& sends_on :
+         {Material{Plastic{Spectrum{}, 0.05, 0.1}}, Material{Mirror{Spectrum::grey(0.9)}}, Material{Glass{}},
+          Material{Dielectric{Spectrum::grey(1)}}, Material{Mist{}}, Material{Illum{Spectrum::grey(1), {}}}}) {
+        Scene scene = black;
+        add_square(scene.root, scene.add_material("other", sends_on), 2);
+        EXPECT_FALSE(needs_of(scene).only_direct()) << sends_on.index();
+    }
+}
+
 TEST(SceneNeeds, AnEmptySceneNeedsNothing)
 {
     const SceneNeeds needs = needs_of(Scene{});
