@@ -31,7 +31,7 @@ struct CacheSettings {
 /// A place where the cache will be asked.
 struct AmbientCandidate {
     SurfacePlace place;
-    double footprint_m = 0; ///< between neighbouring candidates: no record needs a smaller reach
+    double footprint_m = 0; ///< between neighbouring pixels: no record needs a smaller reach; 0: none is too small
 };
 
 /// Ambient irradiance by interpolation between records.

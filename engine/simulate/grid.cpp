@@ -142,12 +142,14 @@ AmbientBuild::Start from_sensors(const std::vector<SurfacePlace>& receivers)
     };
 }
 
-void add_records(AmbientBuild& ambient, const std::vector<SurfacePlace>& receivers, double footprint_m)
+/// Sensors a metre apart may be a centimetre apart from a neighbouring surface that is dark, and each is a number that
+/// someone reads: records have the reach that their light allows, without a least one.
+void add_records(AmbientBuild& ambient, const std::vector<SurfacePlace>& receivers)
 {
     for (std::size_t step = 64;; step /= 4) {
         std::vector<AmbientCandidate> candidates;
         for (std::size_t i = step / 2; i < receivers.size(); i += step)
-            candidates.push_back({receivers[i], footprint_m});
+            candidates.push_back({receivers[i], 0});
         ambient.grow(candidates);
         if (step == 1)
             return ambient.complete();
@@ -254,7 +256,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         progress.tell("ambient light, grid " + grid.name, 0);
         ambient.build_deep(receivers.size(), from_sensors(receivers));
         if (techniques.cache)
-            add_records(ambient, receivers, grid.spacing_m);
+            add_records(ambient, receivers);
         ambient_rays += rays.next();
     }
     SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed,

@@ -289,6 +289,34 @@ TEST(HybridDaylight, ManySensorsWithRecordsAgreeWithFewWithout)
     EXPECT_LT(std::sqrt(error_with * error_with + squares_without), 0.08 * mean_without) << "too coarse to tell";
 }
 
+/// Sensors are further apart than the panels are from the ceiling, whose shaded parts tell nothing about other panels.
+TEST(HybridDaylight, PanelsCloseBelowTheCeilingHaveTheirOwnLight)
+{
+    constexpr double gap_m = 0.01, lift_m = 1e-6;
+    const Direction down{0, 0, -1};
+    Scene scene = daylit_room();
+    const ModifierId panel = grey(scene, "panel", 0.8);
+    SensorGrid few, many;
+    many.spacing_m = 1;
+    for (const Sensor& above : desks(50, 40, 3 - lift_m))
+        many.sensors.push_back({above.position, down});
+    for (const double x : {0.3, 1.5, 2.7, 3.9})
+        for (const double y : {0.4, 1.7, 3.0}) {
+            scene.root.add_polygon(level({x, y, 0}, {x + 0.6, y + 0.6, 0}, 3 - gap_m), panel, "panel");
+            few.sensors.push_back({{x + 0.3, y + 0.3, 3 - gap_m - lift_m}, down});
+        }
+    many.sensors.insert(many.sensors.end(), few.sensors.begin(), few.sensors.end());
+    const Simulation room(std::move(scene));
+    const GridResult with = room.illuminance(many, asked(0.05, 8));
+    const GridResult without = room.illuminance(few, asked(0.02, 2048));
+    double square = 0;
+    for (std::size_t i = 0; i < few.sensors.size(); ++i) {
+        const double found = with.values[many.sensors.size() - few.sensors.size() + i].value;
+        square += std::pow(found / without.values[i].value - 1, 2) / static_cast<double>(few.sensors.size());
+    }
+    EXPECT_LT(std::sqrt(square), 0.07);
+}
+
 View into_the_room()
 {
     View view;

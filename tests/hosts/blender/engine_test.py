@@ -4,10 +4,15 @@ import csv
 import io
 import json
 import os
+import pathlib
 import subprocess
+import sys
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+from baked import Baked
 from blender import OFFICE, TRUTH, InBlender, run
 from lightwell_bridge import exr
 
@@ -67,21 +72,21 @@ class Engine(InBlender):
             picture = exr.read(self.path / f"{camera}.exr")[1]["ViewLayer.Combined.G"]
             self.assertGreater(float(picture.mean()), 0.1, camera)
 
-    def test_means_of_objects_are_those_of_the_command_line(self):
+    def test_the_mean_of_each_object_is_that_of_the_command_line(self):
         rows = {r["name"]: r for r in csv.DictReader(io.StringIO(self.result["table"])) if r["kind"] == "object"}
         self.assertEqual(len(rows), 28)
-        self.command("bake", self.path / "lit" / "scene.rad", "--surface", "Architecture/Floor and ceiling*", "--spacing", "1",
-                     "--samples", "16", "-o", self.path / "baked")
-        maps = json.loads((self.path / "baked" / "maps.json").read_text())
-        found = {s["area_m2"]: s for s in maps["surfaces"]}
-        floor, row = None, rows["Architecture/Floor and ceiling/Floor"]
-        for surface in maps["surfaces"]:
-            if "Carpet" in surface["layer"]:
-                floor = surface
-        self.assertIsNotNone(floor, list(found.values())[:1])
-        self.assertAlmostEqual(float(row["area_m2"]), 24.0, delta=0.01)
-        stated = 3.5 * float(row["error_lx"]) + 1e-6 * float(row["mean_lx"])
-        self.assertLessEqual(abs(float(row["mean_lx"]) - floor["front"]["mean_lx"]), stated)
+        self.command("bake", self.path / "lit" / "scene.rad", "--all", "--spacing", "1", "--samples", "16", "--seed", "3",
+                     "-o", self.path / "baked")
+        baked = Baked(self.path / "baked" / "maps.json")
+        worst = (0.0, "")
+        for source, row in rows.items():
+            area, lux = max((baked.mean({source}, side) for side in ("front", "back")), key=lambda found: found[1])
+            self.assertAlmostEqual(float(row["area_m2"]), area, delta=1e-6 * area + 1e-9, msg=source)
+            # Two runs, each with the error of the row.
+            stated = 3 * 2 ** 0.5 * float(row["error_lx"]) + 1e-6 * lux
+            worst = max(worst, (abs(float(row["mean_lx"]) - lux) / stated, source))
+        print(f"28 objects: at worst {worst[0]:.2f} of three standard errors of the difference: {worst[1]}")
+        self.assertLessEqual(worst[0], 1)
 
     def test_values_sit_on_the_objects_and_go_away_again(self):
         self.assertEqual(self.result["illuminance"], ["FINISHED"])
