@@ -51,7 +51,7 @@ public:
     static Choice from_file(const std::string& name, const Material& material, EmissionSide side)
     {
         const std::string scene_name = find_in_library(name) ? std::string(file_prefix) + name : name;
-        return {Choice::Kind::material, scene_name, &material, side};
+        return {Choice::Kind::material, scene_name, &material, side, -1, -1, name};
     }
 
 private:

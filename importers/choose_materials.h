@@ -20,6 +20,7 @@ struct Choice {
     EmissionSide side = EmissionSide::front; ///< for emitters
     int rule = -1;                           ///< of the map, which decided; -1: none
     int luminaire = -1;                      ///< the last rule with a measured luminaire that fits; -1: none
+    std::string file_material = {};          ///< its name in Imported::file_materials; empty: of the library
     /// An emitter that is part of a luminaire: eyes see it, the luminaire's distribution gives its light.
     bool seen_only() const { return kind == Kind::material && luminaire >= 0 && is_emitter(*definition); }
 };

@@ -36,6 +36,13 @@ Sums sums_of(const ImageFile& image)
     return sums;
 }
 
+std::string_view slice_of(std::string_view bytes, const FileTexture& texture, const std::string& place)
+{
+    if (texture.offset > bytes.size() || texture.length > bytes.size() - texture.offset)
+        throw InputError(place, "the file has become shorter while it was read");
+    return texture.length > 0 ? bytes.substr(texture.offset, texture.length) : bytes;
+}
+
 } // namespace
 
 double PictureMeans::share_kept(double cutoff, double factor) const noexcept
@@ -68,17 +75,20 @@ PictureMeans picture_means(std::string_view image_bytes, const std::string& plac
     return means;
 }
 
+std::string bytes_of(const FileTexture& texture, const std::string& place)
+{
+    if (texture.bytes)
+        return *texture.bytes;
+    const MappedFile mapped(texture.file);
+    return std::string(slice_of(mapped.bytes(), texture, place));
+}
+
 PictureMeans picture_means(const FileTexture& texture, const std::string& place)
 {
     if (texture.bytes)
         return picture_means(*texture.bytes, place);
     const MappedFile mapped(texture.file);
-    std::string_view bytes = mapped.bytes();
-    if (texture.offset > bytes.size() || texture.length > bytes.size() - texture.offset)
-        throw InputError(place, "the file has become shorter while it was read");
-    if (texture.length > 0)
-        bytes = bytes.substr(texture.offset, texture.length);
-    return picture_means(bytes, place);
+    return picture_means(slice_of(mapped.bytes(), texture, place), place);
 }
 
 } // namespace lightwell

@@ -30,6 +30,11 @@ struct FileTexture {
     std::size_t offset = 0, length = 0;       ///< the slice of that file; length 0: the whole file
     std::shared_ptr<const std::string> bytes; ///< decoded from text inside the file; null otherwise
     TexturePlacement placement = {};
+    std::string what;                     ///< for notes: "baseColorTexture", "`map_Kd` wall.png"
+    Spectrum mean{1, 1, 1};               ///< of colours, linear Rec.709
+    std::array<double, 2> strength{1, 1}; ///< of a picture of normals: factors on what it has to the right and up
+    bool as_stored = true;                ///< nothing in the file changes its values
+    bool laid = false;                    ///< surfaces of the material show it; else its mean stands for it
 };
 
 /// Means over the pixels of a picture.
@@ -45,6 +50,9 @@ struct PictureMeans {
 /// @param place  of the picture, for messages
 /// @throws InputError when it is neither PNG nor JPEG, or damaged
 PictureMeans picture_means(std::string_view image_bytes, const std::string& place);
+/// The bytes of the picture, from where a texture says that they are.
+/// @throws InputError when they are not there any more
+std::string bytes_of(const FileTexture& texture, const std::string& place);
 /// The same from where a texture says that its picture is.
 PictureMeans picture_means(const FileTexture& texture, const std::string& place);
 

@@ -1,5 +1,7 @@
 #include "importers/name_modifiers.h"
 
+#include "importers/laid_pictures.h"
+
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -38,7 +40,10 @@ void visit_ids(Scene& scene, const Change& change)
 
 class Namer {
 public:
-    Namer(Imported& imported, const std::vector<Choice>& choices) : imported_(imported), choices_(choices) {}
+    Namer(Imported& imported, const std::vector<Choice>& choices)
+        : imported_(imported), choices_(choices), pictures_(imported)
+    {
+    }
     void run();
 
 private:
@@ -58,6 +63,7 @@ private:
     void collect_used();
     void use_settled(std::size_t modifier);
     void add_materials();
+    ModifierId add_pictures(const Choice& choice, const std::string& material);
     void add_aliases();
     void add_others();
     ModifierId add(Modifier modifier, SurfaceKey key);
@@ -65,7 +71,9 @@ private:
 
     Imported& imported_;
     const std::vector<Choice>& choices_;
-    std::vector<ModifierId> used_; ///< in order of first appearance
+    LaidPictures pictures_;
+    std::set<std::string> pictured_; ///< materials of the scene on surfaces that have coordinates on pictures
+    std::vector<ModifierId> used_;   ///< in order of first appearance
     std::set<ModifierId> known_;
     std::map<std::string, std::set<std::string>> materials_of_layer_;
     std::unordered_map<std::string, ModifierId> material_ids_;
@@ -121,8 +129,27 @@ std::string Namer::unused_name(const std::string& wanted, const std::string& suf
     return name;
 }
 
+/// The patterns and textures that lie on a material of the file.
+/// @return  the last of them, the material's own modifier
+ModifierId Namer::add_pictures(const Choice& choice, const std::string& material)
+{
+    ModifierId last = void_modifier;
+    if (choice.file_material.empty() || !pictured_.contains(material))
+        return last;
+    for (Varying& laid : pictures_.on(choice.file_material)) {
+        const char* kind = laid.kind == Varying::Kind::texture ? ".normals" : ".picture";
+        const std::string name = unused_name(material + kind, ".");
+        last = add({name, std::move(laid), last}, {name, {}, {}, choice.name, {}, {}});
+    }
+    return last;
+}
+
 void Namer::add_materials()
 {
+    const std::set<ModifierId> with_coordinates = modifiers_with_coordinates(imported_.scene);
+    for (const ModifierId id : used_)
+        if (choices_[base(id)].kind == Choice::Kind::material && with_coordinates.contains(id))
+            pictured_.insert(material_name(id));
     for (const ModifierId id : used_) {
         const Choice& choice = choices_[base(id)];
         if (choice.kind != Choice::Kind::material || material_ids_.contains(material_name(id)))
@@ -137,7 +164,8 @@ void Namer::add_materials()
             add({look, material, void_modifier}, {look, {}, {}, choice.name, {}, {}});
             material = Illum{{}, look};
         }
-        material_ids_[material_name(id)] = add({name, material, void_modifier}, {name, {}, {}, choice.name, {}, {}});
+        const ModifierId pictures = add_pictures(choice, material_name(id));
+        material_ids_[material_name(id)] = add({name, material, pictures}, {name, {}, {}, choice.name, {}, {}});
     }
 }
 

@@ -48,8 +48,15 @@ Normals mesh_normals(const Mesh& mesh, const MeshGeometry& geometry, std::uint32
     return {flat, dot(smooth, flat) < 0 ? -smooth : smooth};
 }
 
-/// Coordinates of the picture that is laid on a mesh; 0 where it has none.
-UnitSquare texture_at(const Mesh& mesh, std::uint32_t triangle, const Point& at)
+/// What a picture that is laid on a mesh has at a place; 0 where there is none.
+struct TexturePlace {
+    UnitSquare coordinates{};
+    Vec3 along_u{}, along_v{}; ///< change of the place with each of them, in the plane of the triangle
+};
+
+/// Across a triangle with edges e1, e2 from its first corner: position = e1 b + e2 c and u = u1 b + u2 c, v = v1 b + v2
+/// c, so that (along_u, along_v) is (e1, e2) times the inverse of the matrix of u1, u2, v1, v2.
+TexturePlace texture_at(const Mesh& mesh, std::uint32_t triangle, const Point& at)
 {
     if (mesh.texture.size() != 2 * mesh.points.size())
         return {};
@@ -60,11 +67,16 @@ UnitSquare texture_at(const Mesh& mesh, std::uint32_t triangle, const Point& at)
     if (!(whole > 0))
         return {};
     const double wb = dot(area, cross(at - a, c - a)) / whole, wc = dot(area, cross(b - a, at - a)) / whole;
-    const auto mixed = [&](std::size_t axis) {
-        const auto of = [&](int i) { return mesh.texture[2 * std::size_t{corner[i]} + axis]; };
-        return of(0) + wb * (of(1) - of(0)) + wc * (of(2) - of(0));
-    };
-    return {mixed(0), mixed(1)};
+    const auto of = [&](int i, std::size_t axis) { return mesh.texture[2 * std::size_t{corner[i]} + axis]; };
+    const double u1 = of(1, 0) - of(0, 0), u2 = of(2, 0) - of(0, 0), v1 = of(1, 1) - of(0, 1), v2 = of(2, 1) - of(0, 1),
+                 spread = u1 * v2 - u2 * v1;
+    TexturePlace found;
+    found.coordinates = {of(0, 0) + wb * u1 + wc * u2, of(0, 1) + wb * v1 + wc * v2};
+    if (spread != 0) {
+        found.along_u = ((b - a) * v2 - (c - a) * v1) / spread;
+        found.along_v = ((c - a) * u1 - (b - a) * u2) / spread;
+    }
+    return found;
 }
 
 /// From the world into the frame of this level's part.
@@ -119,8 +131,18 @@ PatternPlace pattern_place(const Hit& hit, const Direction& direction, double di
     if (hit.path != 0)
         place.to_part = &hit.to_part;
     const Surface& surface = hit.part->surfaces[hit.surface];
-    if (surface.shape == Shape::mesh)
-        place.texture = texture_at(*hit.part->meshes[surface.index], hit.triangle, hit.to_part.point(hit.position));
+    if (surface.shape == Shape::mesh) {
+        const TexturePlace laid =
+            texture_at(*hit.part->meshes[surface.index], hit.triangle, hit.to_part.point(hit.position));
+        place.texture = laid.coordinates;
+        place.along_u = laid.along_u;
+        place.along_v = laid.along_v;
+        if (place.to_part != nullptr && !(laid.along_u == Vec3{})) {
+            const Affine to_world = inverse(hit.to_part);
+            place.along_u = to_world.vector(laid.along_u);
+            place.along_v = to_world.vector(laid.along_v);
+        }
+    }
     return place;
 }
 

@@ -63,13 +63,13 @@ void VariedMaterials::follow(ModifierId id, Walk& walk) const noexcept
         if (const auto* material = std::get_if<Material>(&now.what); material != nullptr && walk.material == nullptr)
             walk.material = material;
         if (const auto* varying = std::get_if<Varying>(&now.what)) {
-            const Spectrum value = varying->function->at(walk.place);
             if (varying->kind == Varying::Kind::pattern) {
-                walk.colour *= value;
+                walk.colour *= varying->function->at(walk.place);
             } else if (varying->kind == Varying::Kind::texture) {
-                walk.bend += Vec3{value.r, value.g, value.b};
+                walk.bend += varying->function->bend_at(walk.place);
             } else if (walk.material == nullptr) {
-                const bool front = value.r >= 1 - whole || (value.r > whole && chance_at(walk.place) < value.r);
+                const double share = varying->function->at(walk.place).r;
+                const bool front = share >= 1 - whole || (share > whole && chance_at(walk.place) < share);
                 const ModifierId shown = front ? varying->foreground : varying->background;
                 const ModifierId other = front ? varying->background : varying->foreground;
                 follow(shown, walk);

@@ -5,6 +5,7 @@
 #include "importers/gltf/gltf_material.h"
 #include "importers/gltf/gltf_vertex_colours.h"
 #include "importers/importer.h"
+#include "importers/laid_pictures.h"
 #include "importers/units.h"
 
 #include <algorithm>
@@ -66,9 +67,12 @@ void take_materials(const GltfDocument& document, const std::set<int>& open_shel
             imported.report.add(Finding::ignored, place, "name is used twice; the first material of that name counts");
             continue;
         }
+        const std::size_t first_texture = imported.file_textures.size();
         apply_pictures(material, name, pictures, place, imported.report, imported.file_textures);
         around.open_shell = open_shells.count(static_cast<int>(i)) > 0;
         imported.file_materials.emplace_back(name, material_of(material, around, place, imported.report));
+        settle_pictures(imported.file_textures, first_texture, imported.file_materials.back().second,
+                        lets_base_colour_through(material), place, imported.report);
     }
 }
 

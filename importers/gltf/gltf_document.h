@@ -87,6 +87,8 @@ struct GltfTexture {
     std::string what; ///< name in the file: "baseColorTexture", ...
     int image = -1;   ///< -1: the file names none that is there
     TexturePlacement placement;
+    int coordinates = 0; ///< which TEXCOORD of the mesh lays it
+    double strength = 1; ///< of a picture of normals
 };
 
 /// Factors of a material, linear Rec.709, before the means of its pictures are multiplied with them.

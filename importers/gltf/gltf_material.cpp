@@ -178,7 +178,7 @@ std::string take_mean(const PictureMeans& means, FileTexture::Use use, GltfMater
     case FileTexture::Use::colour:
         material.base_colour = material.base_colour * means.colour;
         take_opacity(means, material);
-        return rounded(means.colour);
+        return {};
     case FileTexture::Use::emission:
         material.emission = material.emission * means.colour;
         return rounded(means.colour);
@@ -198,19 +198,34 @@ void apply_picture(const GltfTexture& texture, GltfMaterial& material, GltfPictu
                    Report& report)
 {
     if (texture.use == FileTexture::Use::normal)
-        return report.add(Finding::unsupported, place,
-                          texture.what + " bends no normals yet; the surface stays smooth");
+        return;
     if (texture.what == "occlusionTexture")
         return report.add(Finding::ignored, place, "occlusionTexture: the simulation finds out what hides light");
     if (texture.use == FileTexture::Use::other)
         return report.add(Finding::unsupported, place, texture.what + " is not read; the factor beside it is used");
-    if (const PictureMeans* means = pictures.means(texture.image, place, report))
+    const PictureMeans* means = pictures.means(texture.image, place, report);
+    if (means == nullptr)
+        return;
+    if (const std::string mean = take_mean(*means, texture.use, material); !mean.empty())
         report.add(Finding::approximated, place,
-                   texture.what + ": its mean, " + take_mean(*means, texture.use, material) +
-                       ", stands for the whole picture");
+                   texture.what + ": its mean, " + mean + ", stands for the whole picture");
 }
 
 } // namespace
+
+bool lets_base_colour_through(const GltfMaterial& material)
+{
+    return material.transmission >= mostly;
+}
+
+int coordinates_of(const GltfMaterial& material)
+{
+    for (const FileTexture::Use use : {FileTexture::Use::colour, FileTexture::Use::normal})
+        for (const GltfTexture& texture : material.textures)
+            if (texture.use == use && texture.image >= 0)
+                return texture.coordinates;
+    return -1;
+}
 
 void apply_pictures(GltfMaterial& material, const std::string& name, GltfPictures& pictures, const std::string& place,
                     Report& report, std::vector<FileTexture>& textures)
@@ -219,13 +234,20 @@ void apply_pictures(GltfMaterial& material, const std::string& name, GltfPicture
     bool masked_by_picture = false;
     for (const GltfTexture& texture : material.textures) {
         apply_picture(texture, material, pictures, place, report);
-        if (texture.use == FileTexture::Use::colour && pictures.means(texture.image, place, report))
-            masked_by_picture = true;
+        const bool shown = texture.use == FileTexture::Use::colour || texture.use == FileTexture::Use::normal;
+        const PictureMeans* means = shown ? pictures.means(texture.image, place, report) : nullptr;
+        if (shown && means == nullptr)
+            continue;
+        masked_by_picture |= texture.use == FileTexture::Use::colour;
         try {
             FileTexture found = pictures.located(texture.image);
             found.material = name;
             found.use = texture.use;
             found.placement = texture.placement;
+            found.what = texture.what;
+            found.mean = means ? means->colour : found.mean;
+            found.strength = {texture.strength, texture.strength};
+            found.as_stored = texture.coordinates == coordinates_of(material);
             textures.push_back(std::move(found));
         } catch (const InputError&) { // noted where the means were asked for
             continue;

@@ -19,6 +19,12 @@ struct GltfSurroundings {
 void apply_pictures(GltfMaterial& material, const std::string& name, GltfPictures& pictures, const std::string& place,
                     Report& report, std::vector<FileTexture>& textures);
 
+/// Which TEXCOORD of its meshes lays the pictures of a material; -1: none is laid. Pictures of other coordinates count
+/// with their means.
+int coordinates_of(const GltfMaterial& material);
+/// Whether the base colour is what light that passes keeps.
+bool lets_base_colour_through(const GltfMaterial& material);
+
 /// The rule of importers/gltf/README.md: emitter, glass, body, metal, plastic or something partly open; always a valid
 /// material.
 Material material_of(const GltfMaterial& from, const GltfSurroundings& around, const std::string& place,

@@ -122,6 +122,10 @@ void MaterialReader::texture(const Json& holder, const char* key, Use use)
         return;
     const Json& texture = item(textures_, index_of(member(info, "index")));
     GltfTexture found{use, key, image_of(texture), placement_in(info)};
+    const Json& transform = member(member(info, "extensions"), "KHR_texture_transform");
+    const int moved = index_of(member(transform, "texCoord"));
+    found.coordinates = std::max(0, moved >= 0 ? moved : index_of(member(info, "texCoord")));
+    found.strength = number_in(info, "scale", 1);
     const Json& sampler = item(samplers_, index_of(member(texture, "sampler")));
     found.placement.repeats = index_of(member(sampler, "wrapS")) != clamp_to_edge;
     material_.textures.push_back(std::move(found));

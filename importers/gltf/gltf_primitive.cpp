@@ -3,6 +3,7 @@
 #include "engine/base/errors.h"
 #include "importers/gltf/gltf_accessor.h"
 #include "importers/gltf/gltf_codecs.h"
+#include "importers/gltf/gltf_material.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +36,22 @@ void check_count(const GltfDocument& document, const char* name, int accessor, s
                              std::to_string(points));
 }
 
+/// Of the corners' coordinates that lay the pictures of the material; the first where no picture is laid.
+std::string name_of_coordinates(const GltfDocument& document, const GltfPrimitive& primitive)
+{
+    const auto material = static_cast<std::size_t>(primitive.material);
+    const bool known = primitive.material >= 0 && material < document.materials.size();
+    return "TEXCOORD_" + std::to_string(known ? std::max(0, coordinates_of(document.materials[material])) : 0);
+}
+
+/// Coordinates that lay no picture only keep the triangles of a wall apart.
+bool needs_coordinates(const GltfDocument& document, const GltfPrimitive& primitive)
+{
+    const auto material = static_cast<std::size_t>(primitive.material);
+    return primitive.material >= 0 && material < document.materials.size() &&
+           coordinates_of(document.materials[material]) >= 0;
+}
+
 Source from_accessors(const GltfDocument& document, const GltfPrimitive& primitive)
 {
     const auto accessor_of = [&](const char* name) {
@@ -50,9 +67,10 @@ Source from_accessors(const GltfDocument& document, const GltfPrimitive& primiti
         source.normals = read_vectors(document, accessor_of("NORMAL"));
         check_count(document, "NORMAL", accessor_of("NORMAL"), source.normals.size(), count);
     }
-    if (primitive.attributes.count("TEXCOORD_0") > 0) {
-        source.texture = read_numbers(document, accessor_of("TEXCOORD_0"), 2);
-        check_count(document, "TEXCOORD_0", accessor_of("TEXCOORD_0"), source.texture.size() / 2, count);
+    const std::string coordinates = name_of_coordinates(document, primitive);
+    if (primitive.attributes.count(coordinates) > 0) {
+        source.texture = read_numbers(document, accessor_of(coordinates.c_str()), 2);
+        check_count(document, coordinates.c_str(), accessor_of(coordinates.c_str()), source.texture.size() / 2, count);
     }
     if (primitive.indices >= 0) {
         source.corners = read_indices(document, primitive.indices);
@@ -81,17 +99,18 @@ Source from_draco(const GltfDocument& document, const GltfPrimitive& primitive)
     if (!document.views[static_cast<std::size_t>(view)].fault.empty())
         throw InputError(place, document.views[static_cast<std::size_t>(view)].fault);
     std::map<std::string, int> wanted;
+    const std::string coordinates = name_of_coordinates(document, primitive);
     for (const auto& [name, id] : primitive.draco->attributes)
-        if (name == "POSITION" || name == "NORMAL" || name == "TEXCOORD_0")
+        if (name == "POSITION" || name == "NORMAL" || name == coordinates)
             wanted[name] = id;
     DracoMesh packed = unpack_draco(document.views[static_cast<std::size_t>(view)].bytes, wanted, place);
     for (const auto& [name, components] : packed.components)
-        if (components != (name == "TEXCOORD_0" ? 2 : 3))
+        if (components != (name == coordinates ? 2 : 3))
             throw InputError(place, name + " has " + std::to_string(components) + " components");
     if (packed.values["POSITION"].empty())
         throw InputError(place, "Draco data without POSITION");
     return {as_vectors(packed.values["POSITION"]), as_vectors(packed.values["NORMAL"]),
-            std::move(packed.values["TEXCOORD_0"]), std::move(packed.triangles)};
+            std::move(packed.values[coordinates]), std::move(packed.triangles)};
 }
 
 /// Source  glTF 2.0 specification, 3.7.2.1: strips turn every second triangle, fans share their first corner
@@ -209,7 +228,7 @@ GltfTriangles read_triangles(const GltfDocument& document, const GltfPrimitive& 
     const std::size_t count = source.points.size();
     if (source.normals.size() != count)
         source.normals.clear();
-    if (source.texture.size() != 2 * count)
+    if (source.texture.size() != 2 * count || !needs_coordinates(document, primitive))
         source.texture.clear();
     for (const std::uint32_t corner : source.corners)
         if (corner >= count)

@@ -2,6 +2,7 @@
 
 #include "engine/base/text.h"
 #include "engine/geometry/face_shape.h"
+#include "importers/laid_pictures.h"
 #include "importers/obj/corner_index.h"
 
 #include <algorithm>
@@ -55,6 +56,7 @@ private:
     void add_face(const ObjFace& face);
     void take_outline(const ObjFace& face);
     bool smooth(const ObjFace& face);
+    bool pictured(const ObjFace& face) const;
     void add_to_mesh(std::unordered_map<std::uint32_t, MeshInProgress>& meshes, const ObjFace& face, bool with_normals);
     std::uint32_t mesh_point(MeshInProgress& target, std::size_t corner, bool with_normals);
     void finish_meshes(std::unordered_map<std::uint32_t, MeshInProgress>& meshes);
@@ -68,7 +70,8 @@ private:
     std::vector<Point> points_;
     std::vector<Direction> normals_;
     std::vector<std::optional<ModifierId>> modifiers_; ///< by state
-    std::unordered_map<std::uint32_t, MeshInProgress> smooth_meshes_, flat_meshes_;
+    std::vector<bool> pictured_states_;
+    std::unordered_map<std::uint32_t, MeshInProgress> smooth_meshes_, flat_meshes_, pictured_meshes_;
     Outline outline_; ///< of the face at hand; this and the next two are kept to spare allocations
     Triangles triangles_;
     std::vector<std::uint32_t> mesh_points_; ///< number in the mesh by corner of the outline
@@ -88,6 +91,9 @@ ObjBuilder::ObjBuilder(const ObjFile& file, const Affine& to_metres, const std::
     normals_.reserve(file.normals.size());
     for (const Vec3& normal : file.normals)
         normals_.push_back(normalized(to_metres.vector(normal)));
+    const std::set<std::string> pictured = pictured_materials(imported.file_textures);
+    for (const ObjState& state : file.states)
+        pictured_states_.push_back(pictured.contains(state.material));
 }
 
 void ObjBuilder::build()
@@ -101,6 +107,7 @@ void ObjBuilder::build()
     }
     finish_meshes(smooth_meshes_);
     finish_meshes(flat_meshes_);
+    finish_meshes(pictured_meshes_);
     imported_.made_with_key.assign(imported_.keys.size(), 0);
     for (std::size_t state = 0; state < made_in_state.size(); ++state)
         if (modifiers_[state])
@@ -133,14 +140,18 @@ void ObjBuilder::add_face(const ObjFace& face)
     take_outline(face);
     const bool enough = outline_.points.size() >= 3, has_area = enough && outline_.shape.has_area();
     const bool with_normals = has_area && smooth(face);
-    if (has_area && !with_normals && outline_.shape.planar()) {
+    const bool shows_picture = enough && !with_normals && pictured(face);
+    if (has_area && !with_normals && !shows_picture && outline_.shape.planar()) {
         imported_.scene.root.add_polygon(outline_.points, modifier_of(face.state), face_name(face.number));
         imported_.ledger.made("face", layer_of(file_.states[face.state]));
         return;
     }
     const std::size_t before = imported_.ledger.made_count();
     if (enough)
-        add_to_mesh(with_normals ? smooth_meshes_ : flat_meshes_, face, with_normals);
+        add_to_mesh(with_normals    ? smooth_meshes_
+                    : shows_picture ? pictured_meshes_
+                                    : flat_meshes_,
+                    face, with_normals);
     if (imported_.ledger.made_count() == before) {
         imported_.ledger.skipped("face", layer_of(file_.states[face.state]), "zero area");
         return;
@@ -150,6 +161,13 @@ void ObjBuilder::add_face(const ObjFace& face)
     else if (!outline_.shape.planar())
         repaired(warped_, face, "corners out of plane: cut into triangles");
     worst_deviation_m_ = std::fmax(worst_deviation_m_, outline_.shape.deviation_m);
+}
+
+/// True when a picture lies on the face: polygons have no coordinates, so it becomes part of a mesh.
+bool ObjBuilder::pictured(const ObjFace& face) const
+{
+    return pictured_states_[face.state] && std::all_of(outline_.corners.begin(), outline_.corners.end(),
+                                                       [](const ObjCorner& corner) { return corner.texture >= 0; });
 }
 
 void ObjBuilder::repaired(ObjTally& tally, const ObjFace& face, const char* what)
@@ -228,7 +246,7 @@ void ObjBuilder::finish_meshes(std::unordered_map<std::uint32_t, MeshInProgress>
         if (found == meshes.end())
             continue;
         MeshInProgress& ready = found->second;
-        if (!ready.textured)
+        if (!ready.textured || !pictured_states_[state])
             ready.mesh.texture.clear();
         imported_.scene.root.add_mesh(std::make_shared<const Mesh>(std::move(ready.mesh)), modifier_of(state),
                                       face_name(ready.first_face));

@@ -19,6 +19,7 @@ struct MtlTexture {
     std::string statement;     ///< "map_Kd", "bump", ...
     std::string file;          ///< as written, with its blanks
     double base = 0, gain = 1; ///< `-mm`: base + gain * value
+    double bend = 1;           ///< `-bm`: factor on what a picture of normals bends
     char channel = 'l';        ///< `-imfchan`: r, g, b, m (matte, opacity), l (luminance) or z
     TexturePlacement placement;
     std::size_t line = 0;

@@ -52,8 +52,10 @@ std::vector<double> numbers_in(std::string_view& rest)
 bool take_option(std::string_view option, std::string_view& rest, MtlTexture& texture)
 {
     if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-type" || option == "-texres" ||
-        option == "-bm" || option == "-boost") { // none of them changes a mean
+        option == "-boost") { // none of them changes a mean
         next_word(rest);
+    } else if (option == "-bm") {
+        texture.bend = parse_double(next_word(rest)).value_or(1);
     } else if (option == "-clamp") {
         texture.placement.repeats = next_word(rest) != "on";
     } else if (option == "-imfchan") {
@@ -218,19 +220,25 @@ void MtlPictures::apply_one(const MtlTexture& texture, MtlMaterial& mtl, const s
         return report.add(Finding::ignored, place,
                           what + "names \"" + texture.file + "\", which is not there; the plain value is used");
     const std::string name = file->filename().string();
-    if (use == Use::normal || use == Use::height || use == Use::other) {
+    FileTexture found;
+    if (use == Use::height || use == Use::other) {
         report.add(Finding::unsupported, place,
                    what + name +
                        (use == Use::other ? ": has no meaning for this material"
-                                          : ": bends no normals yet; the surface stays smooth"));
+                                          : ": heights without a unit bend no normals; the surface stays smooth"));
     } else {
         const PictureMeans* means = means_of(*file, place, report);
         if (!means)
             return;
-        report.add(Finding::approximated, place,
-                   what + name + ": its mean, " + take_mean(*means, texture, mtl) + ", stands for the whole picture");
+        const std::string mean = take_mean(*means, texture, mtl);
+        if (use != Use::colour && use != Use::normal)
+            report.add(Finding::approximated, place,
+                       what + name + ": its mean, " + mean + ", stands for the whole picture");
+        found.mean = colour_mean(*means, texture);
     }
-    FileTexture found;
+    found.what = what + name;
+    found.as_stored = texture.base == 0 && texture.gain == 1 && texture.channel == 'l';
+    found.strength = {texture.bend, texture.bend};
     found.material = mtl.name;
     found.use = use;
     found.file = *file;

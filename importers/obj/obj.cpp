@@ -2,6 +2,7 @@
 #include "engine/base/files.h"
 #include "engine/base/text.h"
 #include "importers/importer.h"
+#include "importers/laid_pictures.h"
 #include "importers/obj/build_obj.h"
 #include "importers/obj/mtl.h"
 #include "importers/obj/obj_file.h"
@@ -118,8 +119,11 @@ void read_library(const std::filesystem::path& library, std::set<std::string>& d
             imported.report.add(Finding::ignored, place, "defined twice; the first one counts");
             continue;
         }
+        const std::size_t first_texture = imported.file_textures.size();
         pictures.apply(mtl, place, imported.report, imported.file_textures);
         imported.file_materials.emplace_back(mtl.name, material_of(mtl, place, imported.report));
+        settle_pictures(imported.file_textures, first_texture, imported.file_materials.back().second, false, place,
+                        imported.report);
         if (mtl.diffuse)
             colours.emplace(mtl.name, *mtl.diffuse);
     }

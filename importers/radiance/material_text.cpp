@@ -22,7 +22,7 @@ constexpr std::string_view material_types[] = {
 constexpr std::string_view pattern_types[] = {"brightfunc", "brightdata", "brighttext", "colorfunc",
                                               "colordata",  "colorpict",  "colortext",  "spectrum",
                                               "specfile",   "specfunc",   "specdata",   "specpict"};
-constexpr std::string_view texture_types[] = {"texfunc", "texdata"};
+constexpr std::string_view texture_types[] = {"texfunc", "texdata", "texpict"};
 constexpr std::string_view mixture_types[] = {"mixfunc", "mixdata", "mixtext", "mixpict"};
 
 template <std::size_t N>

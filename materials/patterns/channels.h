@@ -16,7 +16,9 @@ inline constexpr std::size_t place_channels = 27;
 inline constexpr std::size_t light_channel = 35;
 /// What tables and pictures give, three of them; then the wavelength in nm.
 inline constexpr std::size_t value_channel = 41, wavelength_channel = 44;
-inline constexpr std::size_t most_channels = wavelength_channel;
+/// How the place changes along the coordinates on a mesh, three and three.
+inline constexpr std::size_t along_u_channel = 45, along_v_channel = 48;
+inline constexpr std::size_t most_channels = along_v_channel + 2;
 
 using Channels = std::array<double, most_channels>;
 /// The place as functions see it, in the frame of the pattern. Textures and patterns below a material are left out of

@@ -20,15 +20,25 @@ struct Form {
     enum class Source { formula, data, picture, letters, spectrum, spectral_data, spectral_formula } source;
 };
 constexpr Form forms[] = {
-    {"colorfunc", 3, Form::Source::formula},      {"brightfunc", 1, Form::Source::formula},
-    {"texfunc", 3, Form::Source::formula},        {"mixfunc", 1, Form::Source::formula},
-    {"colordata", 3, Form::Source::data},         {"brightdata", 1, Form::Source::data},
-    {"texdata", 3, Form::Source::data},           {"mixdata", 1, Form::Source::data},
-    {"colorpict", 3, Form::Source::picture},      {"mixpict", 1, Form::Source::picture},
-    {"specpict", 1, Form::Source::picture},       {"colortext", 3, Form::Source::letters},
-    {"brighttext", 1, Form::Source::letters},     {"mixtext", 0, Form::Source::letters},
-    {"spectrum", 0, Form::Source::spectrum},      {"specfile", 0, Form::Source::spectral_data},
-    {"specdata", 1, Form::Source::spectral_data}, {"specfunc", 1, Form::Source::spectral_formula},
+    {"colorfunc", 3, Form::Source::formula},
+    {"brightfunc", 1, Form::Source::formula},
+    {"texfunc", 3, Form::Source::formula},
+    {"mixfunc", 1, Form::Source::formula},
+    {"colordata", 3, Form::Source::data},
+    {"brightdata", 1, Form::Source::data},
+    {"texdata", 3, Form::Source::data},
+    {"mixdata", 1, Form::Source::data},
+    {"colorpict", 3, Form::Source::picture},
+    {"mixpict", 1, Form::Source::picture},
+    {"texpict", 3, Form::Source::picture},
+    {"specpict", 1, Form::Source::picture},
+    {"colortext", 3, Form::Source::letters},
+    {"brighttext", 1, Form::Source::letters},
+    {"mixtext", 0, Form::Source::letters},
+    {"spectrum", 0, Form::Source::spectrum},
+    {"specfile", 0, Form::Source::spectral_data},
+    {"specdata", 1, Form::Source::spectral_data},
+    {"specfunc", 1, Form::Source::spectral_formula},
 };
 
 const Form* form_of(std::string_view type) noexcept
@@ -225,8 +235,7 @@ private:
         std::vector<std::string> functions = words(form.values, "the name of a function");
         std::size_t dimensions = 2;
         if (form.source == Source::picture) {
-            const fs::path path = file("a picture");
-            table.picture = kept(reader_.pictures_, path, [&] { return PictureTable::read(path); });
+            table.picture = picture(form.type == "texpict");
         } else {
             for (std::size_t i = 0; i < form.values; ++i)
                 table.data.push_back(data(i));
@@ -239,6 +248,22 @@ private:
             functions.resize(3, functions.front());
         table.values = of_table_values(functions, form.source == Source::picture ? 3 : form.values, context);
         return table;
+    }
+    /// @param stored  the numbers of the file mean no colours
+    std::shared_ptr<const PictureTable> picture(bool stored)
+    {
+        if (const auto& given = request_.picture; given != nullptr) {
+            word("a picture");
+            if (given->file.empty())
+                text_.made.emplace_back(next_ - 1, given->contents);
+            else
+                text_.files.emplace_back(next_ - 1, given->file);
+            text_.contents += given->identity;
+            return given->table;
+        }
+        const fs::path path = file("a picture");
+        return stored ? kept(reader_.stored_pictures_, path, [&] { return PictureTable::read_stored(path); })
+                      : kept(reader_.pictures_, path, [&] { return PictureTable::read(path); });
     }
     std::shared_ptr<const DataTable> data(std::size_t which)
     {

@@ -18,6 +18,14 @@ public:
     /// The transform that the words from `begin` on stand for.
     using ReadTransform = std::function<Affine(const std::vector<std::string>& words, std::size_t begin)>;
 
+    /// A picture that is read already, in the place of the one that the words name.
+    struct GivenPicture {
+        std::shared_ptr<const PictureTable> table;
+        std::string file;     ///< where it is; empty: nowhere yet
+        std::string contents; ///< the bytes of one that is nowhere yet
+        std::string identity; ///< differs where pictures differ
+    };
+
     struct Request {
         std::string type; ///< `colorfunc`, ...; mixtures without their two modifiers
         std::vector<std::string> words;
@@ -25,6 +33,7 @@ public:
         std::string place; ///< file, line and entity, for messages
         FindFile find_file;
         ReadTransform read_transform;
+        std::shared_ptr<const GivenPicture> picture = nullptr; ///< null: the words name a file
     };
     /// @throws InputError with the place: words or numbers missing, files missing or damaged, functions that are not
     ///         defined
@@ -44,7 +53,7 @@ private:
     class Build;
     std::map<std::filesystem::path, std::shared_ptr<const std::string>> texts_;
     std::map<std::filesystem::path, std::shared_ptr<const DataTable>> tables_;
-    std::map<std::filesystem::path, std::shared_ptr<const PictureTable>> pictures_;
+    std::map<std::filesystem::path, std::shared_ptr<const PictureTable>> pictures_, stored_pictures_;
     std::map<std::filesystem::path, std::shared_ptr<const PolygonFont>> fonts_;
     std::map<std::string, std::shared_ptr<const Definitions>> definitions_; ///< by the function files named together
 };

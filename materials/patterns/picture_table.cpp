@@ -24,18 +24,47 @@ PictureTable of_channels(const Picture& picture, const std::string& file)
     const auto &r = picture.channels.at("R"), &g = picture.channels.at("G"), &b = picture.channels.at("B");
     for (std::size_t i = 0; i < r.size(); ++i)
         pixels.push_back({r[i], g[i], b[i]});
-    return {picture.width, picture.height, std::move(pixels)};
+    return {picture.width, picture.height, pixels};
+}
+
+std::array<double, 256> plain_values()
+{
+    std::array<double, 256> values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<double>(i) / 255;
+    return values;
+}
+
+std::array<double, 256> linear_of_srgb()
+{
+    std::array<double, 256> values = plain_values();
+    for (double& value : values)
+        value = srgb_to_linear(value);
+    return values;
+}
+
+/// @param x, y  which square, from the upper left corner
+Spectrum mean_of_square(const ImageFile& image, const std::array<double, 256>& values, int x, int y, int side)
+{
+    Spectrum sum;
+    for (int row = y * side; row < std::min((y + 1) * side, image.height); ++row)
+        for (int column = x * side; column < std::min((x + 1) * side, image.width); ++column) {
+            const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                                   static_cast<std::size_t>(column);
+            const std::uint8_t* pixel = &image.rgba[4 * at];
+            sum += Spectrum{values[pixel[0]], values[pixel[1]], values[pixel[2]]};
+        }
+    const double count = static_cast<double>(std::min(side, image.height)) * std::min(side, image.width);
+    return sum / count;
 }
 
 PictureTable of_display(const DisplayPicture& picture)
 {
-    std::array<double, 256> linear;
-    for (std::size_t i = 0; i < linear.size(); ++i)
-        linear[i] = srgb_to_linear(static_cast<double>(i) / 255);
+    const std::array<double, 256> linear = linear_of_srgb();
     std::vector<Spectrum> pixels;
     for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
         pixels.push_back(from_rec709({linear[picture.rgb[i]], linear[picture.rgb[i + 1]], linear[picture.rgb[i + 2]]}));
-    return {picture.width, picture.height, std::move(pixels)};
+    return {picture.width, picture.height, pixels};
 }
 
 /// The step between two middles of pixels and how far within it; a single row or column is the same everywhere.
@@ -84,9 +113,36 @@ PictureTable PictureTable::read(const std::filesystem::path& file)
                      "Radiance, OpenEXR, PNG and JPEG pictures are"};
 }
 
-PictureTable::PictureTable(int width, int height, std::vector<Spectrum> pixels)
-    : width_(width), height_(height), pixels_per_unit_(std::min(width, height)), pixels_(std::move(pixels))
+PictureTable PictureTable::read_stored(const std::filesystem::path& file)
 {
+    const MappedFile mapped(file);
+    return of_image(read_image(mapped.bytes(), file.string()), false);
+}
+
+PictureTable PictureTable::of_image(const ImageFile& image, bool colours)
+{
+    const std::array<double, 256> values = colours ? linear_of_srgb() : plain_values();
+    int side = 1; // of the squares that become one pixel
+    while (static_cast<std::size_t>(image.width / side) * static_cast<std::size_t>(image.height / side) >
+           most_laid_pixels)
+        ++side;
+    const int width = std::max(1, image.width / side), height = std::max(1, image.height / side);
+    std::vector<Spectrum> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Spectrum mean = mean_of_square(image, values, x, y, side);
+            pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+                colours ? from_rec709(mean) : mean;
+        }
+    return {width, height, pixels};
+}
+
+PictureTable::PictureTable(int width, int height, const std::vector<Spectrum>& pixels)
+    : width_(width), height_(height), pixels_per_unit_(std::min(width, height))
+{
+    pixels_.reserve(pixels.size());
+    for (const Spectrum& pixel : pixels)
+        pixels_.push_back({static_cast<float>(pixel.r), static_cast<float>(pixel.g), static_cast<float>(pixel.b)});
 }
 
 Spectrum PictureTable::at(double u, double v) const noexcept

@@ -44,6 +44,8 @@ Channels channels_of(const PatternPlace& place, const Affine& to_pattern) noexce
     channels[30] = channels[10];
     channels[31] = channels[32] = channels[33] = 1;
     put(channels, light_channel, turned(place.to_light));
+    put(channels, along_u_channel, to_pattern.vector(place.along_u));
+    put(channels, along_v_channel, to_pattern.vector(place.along_v));
     return channels;
 }
 
@@ -74,6 +76,16 @@ Spectrum PlaceFunction::at(const PatternPlace& place) const noexcept
 Affine PlaceFunction::to_pattern(const PatternPlace& place) const noexcept
 {
     return place.to_part != nullptr ? compose(to_pattern_, *place.to_part) : to_pattern_;
+}
+
+Vec3 PlaceFunction::bend_at(const PatternPlace& place) const noexcept
+{
+    const Spectrum found = at(place);
+    const Vec3 bend{found.r, found.g, found.b};
+    const Affine map = to_pattern(place);
+    // Of a similarity the transposed matrix turns back, up to its scale.
+    const Vec3 turned{dot(map.x, bend), dot(map.y, bend), dot(map.z, bend)};
+    return turned / std::cbrt(std::fabs(map.determinant()));
 }
 
 Spectrum PlaceFunction::checked(const double* values, std::size_t count, bool good) const noexcept

@@ -63,6 +63,8 @@ public:
 
     /// @return three values; of a function of one value all are that one. What has no value is 0 and counted.
     Spectrum at(const PatternPlace& place) const noexcept;
+    /// The three values of a texture as a vector in the world: a pattern's frame turns along, its scale does not count.
+    Vec3 bend_at(const PatternPlace& place) const noexcept;
     /// Whether it is the same everywhere.
     bool is_constant() const noexcept { return std::holds_alternative<Constant>(*what_); }
     /// Evaluations that came to no number.

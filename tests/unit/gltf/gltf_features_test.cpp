@@ -144,8 +144,8 @@ TEST(GltfLooks, PicturesCountWithTheirMeansWhereverTheyAreKept)
     EXPECT_NEAR(colour.r, 0.5, gamut);
     EXPECT_NEAR(colour.g, 0.502886, gamut); // sRGB 188 in linear light
     EXPECT_NEAR(std::get<Metal>(material_named(imported, "Data")).roughness, std::pow(0.5 * 128 / 255, 2), 1e-9);
-    EXPECT_EQ(noted(imported.report, "baseColorTexture: its mean, 1 0.503 0, stands for the whole picture"), 1u);
-    ASSERT_EQ(imported.file_textures.size(), 3u);
+    EXPECT_EQ(noted(imported.report, "baseColorTexture: its mean, 1 0.503 0, is the average"), 1u);
+    ASSERT_EQ(imported.file_textures.size(), 4u);
     const FileTexture& inside = imported.file_textures[0];
     EXPECT_EQ(inside.material, "Pictured");
     EXPECT_EQ(MappedFile(inside.file).bytes().substr(inside.offset, 4), "\x89PNG");
@@ -154,8 +154,13 @@ TEST(GltfLooks, PicturesCountWithTheirMeansWhereverTheyAreKept)
     const std::array<double, 6> expected{2, 0, 0.1, 0, 3, -2.2};
     for (std::size_t i = 0; i < expected.size(); ++i)
         EXPECT_NEAR(inside.placement.to_picture[i], expected[i], 1e-12) << i;
-    EXPECT_TRUE(imported.file_textures[1].bytes);
-    EXPECT_EQ(imported.file_textures[2].file.filename(), "holes.png");
+    const FileTexture& normals = imported.file_textures[1];
+    EXPECT_TRUE(normals.bytes);
+    EXPECT_EQ(normals.strength[1], 0.5);
+    EXPECT_TRUE(normals.laid);
+    EXPECT_EQ(noted(imported.report, "normalTexture bends the normals"), 1u);
+    EXPECT_FALSE(imported.file_textures[2].laid); // of roughness and metal
+    EXPECT_EQ(imported.file_textures[3].file.filename(), "holes.png");
 }
 
 TEST(GltfLooks, VertexColoursMultiplyTheBaseColourWithTheirMeanOverTheArea)

@@ -192,7 +192,6 @@ TEST(Gltf, MaterialsFollowTheStatedRule)
     const auto& lamp = std::get<Light>(material_named(imported, "Lamp"));
     EXPECT_NEAR(luminance_of(lamp.radiance).value, truth_of("materials")["lamp_luminance_cd_per_m2"].get<double>(),
                 1e-3);
-    EXPECT_EQ(noted(imported.report, "normalTexture bends no normals yet"), 1u);
     EXPECT_EQ(noted(imported.report, "its file \"not there.png\" is not there"), 1u);
     EXPECT_EQ(noted(imported.report, "animation"), 1u);
     EXPECT_NO_THROW(material_named(imported, "material6"));

@@ -55,7 +55,7 @@ TEST(ObjMaterials, APictureCountsWithItsMeanInLinearLightTimesThePlainColour)
     EXPECT_NEAR(colour.r, 0.4, gamut);
     EXPECT_NEAR(colour.g, 0.8 * green, gamut);
     EXPECT_NEAR(colour.b, 0, gamut);
-    EXPECT_EQ(noted(found.report, "wall paper.png: its mean, 0.5 0.503 0, stands for the whole picture"), 1u);
+    EXPECT_EQ(noted(found.report, "wall paper.png: its mean, 0.5 0.503 0, is the average"), 1u);
     ASSERT_EQ(found.file_textures.size(), 1u);
     const FileTexture& texture = found.file_textures[0];
     EXPECT_EQ(texture.material, "M");
@@ -90,7 +90,7 @@ TEST(ObjMaterials, BumpsAndMissingOrBrokenPicturesAreSaidAndHarmNothing)
         folder.import("Kd 0.5 0.5 0.5\nillum 1\nbump -bm 0.3 a.png\nmap_Kd b.png\nmap_Ks c.png\nrefl "
                       "-type sphere a.png\nmap_d\nmap_Kd -frob a.png\nfrobnicate 1");
     EXPECT_NEAR(to_rec709(std::get<Plastic>(found.file_materials.at(0).second).colour).r, 0.25, gamut); // of a.png
-    EXPECT_EQ(noted(found.report, "bends no normals yet"), 1u);
+    EXPECT_EQ(noted(found.report, "heights without a unit bend no normals"), 1u);
     EXPECT_EQ(noted(found.report, "cannot be read as PNG"), 1u);
     EXPECT_EQ(noted(found.report, "names \"c.png\", which is not there"), 1u);
     EXPECT_EQ(noted(found.report, "has no meaning for this material"), 1u);
