@@ -150,7 +150,8 @@ INSTANTIATE_TEST_SUITE_P(All, DxfFixture, testing::ValuesIn(fixture_names()),
 TEST(DxfFixtures, CoverReleases12To2018AsTextAndBinary)
 {
     const std::vector<std::string> names = fixture_names();
-    for (const char* kind : {"entities", "inserts", "plan", "areas", "extras", "hidden", "references", "styles"})
+    for (const char* kind :
+         {"entities", "inserts", "plan", "areas", "extras", "hidden", "references", "styles", "options"})
         for (const char* release : {"_r12", "_r2000", "_r2007", "_r2018"})
             for (const char* ending : {"", "_binary"}) {
                 const std::string name = std::string{kind} + release + ending;
@@ -158,6 +159,91 @@ TEST(DxfFixtures, CoverReleases12To2018AsTextAndBinary)
                     std::string{release} == "_r12" && (name[0] == 'a' || name.starts_with("extras"));
                 EXPECT_EQ(std::count(names.begin(), names.end(), name), came_later ? 0 : 1) << name;
             }
+}
+
+/// Rows of the table that ezdxf wrote of the drawings: its cells by entity and option.
+std::map<std::string, std::vector<std::string>> table_of_the_readme()
+{
+    std::ifstream in{folder / "README.md"};
+    std::map<std::string, std::vector<std::string>> rows;
+    bool within = false;
+    for (std::string line; std::getline(in, line);) {
+        within = within || line == "<!-- table -->";
+        if (!within || !line.starts_with("| ") || line.starts_with("| ---"))
+            continue;
+        std::vector<std::string> cells;
+        std::istringstream words{line.substr(1)};
+        for (std::string cell; std::getline(words, cell, '|');)
+            cells.push_back(
+                cell.find_first_not_of(' ') == std::string::npos ? "" : cell.substr(1, cell.find_last_not_of(' ')));
+        const std::string name = cells.front();
+        rows[name] = {cells.begin() + 1, cells.end()};
+    }
+    return rows;
+}
+
+TEST(DxfFixtures, HoldEveryEntityAndOptionInEveryReleaseThatHasItAsTextAndBinary)
+{
+    const auto rows = table_of_the_readme();
+    for (const char* needed : {"LINE, thickness",
+                               "LWPOLYLINE, bulge",
+                               "LWPOLYLINE, width",
+                               "LWPOLYLINE, elevation",
+                               "LWPOLYLINE, thickness",
+                               "LWPOLYLINE, closed",
+                               "POLYLINE, bulge",
+                               "POLYLINE, width",
+                               "POLYLINE, elevation",
+                               "POLYLINE, thickness",
+                               "POLYLINE, closed",
+                               "POLYLINE, 3D",
+                               "POLYLINE, polygon mesh",
+                               "POLYLINE, polyface mesh",
+                               "3DFACE",
+                               "SOLID",
+                               "TRACE",
+                               "CIRCLE, thickness",
+                               "ARC, thickness",
+                               "ELLIPSE",
+                               "SPLINE",
+                               "HATCH, islands",
+                               "MESH, levels",
+                               "MESH, creases",
+                               "REGION",
+                               "3DSOLID",
+                               "BODY",
+                               "SURFACE",
+                               "INSERT, nested",
+                               "INSERT, array",
+                               "INSERT, mirrored",
+                               "INSERT, extrusion",
+                               "INSERT, uneven scale",
+                               "INSERT, with attributes",
+                               "INSERT, external reference",
+                               "INSERT, by block",
+                               "3DFACE, on layer 0 of a block",
+                               "3DFACE, true colour",
+                               "3DFACE, in paper space",
+                               "LAYER, off",
+                               "LAYER, frozen",
+                               "LAYER, not plotted",
+                               "LIGHT, point",
+                               "LIGHT, spot",
+                               "LIGHT, distant",
+                               "VIEW",
+                               "VPORT"})
+        EXPECT_TRUE(rows.contains(needed)) << needed;
+    for (const auto& [name, cells] : rows) {
+        SCOPED_TRACE(name);
+        ASSERT_EQ(cells.size(), 8u);
+        if (name == "entity, option")
+            continue;
+        EXPECT_EQ(cells.back(), "x");
+        for (std::size_t i = 0; i < cells.size(); ++i) { // text, binary of R12, R2000, R2007, R2018
+            EXPECT_TRUE(cells[i] == "x" || cells[i] == "-") << i;
+            EXPECT_EQ(cells[i], cells[i / 2 * 2]) << i;
+        }
+    }
 }
 
 void expect_same_surfaces(const Part& a, const Part& b)
