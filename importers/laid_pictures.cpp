@@ -30,13 +30,6 @@ std::string three_digits(const Spectrum& s)
     return rounded(s.r) + " " + rounded(s.g) + " " + rounded(s.b);
 }
 
-std::string identity_of(const FileTexture& texture)
-{
-    return texture.bytes
-               ? "bytes " + std::to_string(std::hash<std::string>{}(*texture.bytes))
-               : texture.file.string() + " " + std::to_string(texture.offset) + " " + std::to_string(texture.length);
-}
-
 /// Numbers of laid_picture.cal.
 std::vector<double> numbers_of(const FileTexture& texture, const PictureTable& table)
 {
@@ -108,14 +101,14 @@ std::set<ModifierId> modifiers_with_coordinates(const Scene& scene)
     return found;
 }
 
-std::shared_ptr<const PictureTable> LaidPictures::table_of(const FileTexture& texture, const std::string& identity)
+std::shared_ptr<const PictureTable> LaidPictures::table_of(const FileTexture& texture, const std::string& bytes,
+                                                           const std::string& identity)
 {
     const bool colours = texture.use == Use::colour;
     std::shared_ptr<const PictureTable>& known = known_[identity + (colours ? " colours" : " stored")];
     if (known)
         return known;
-    auto table = std::make_shared<PictureTable>(
-        PictureTable::of_image(read_image(bytes_of(texture, texture.what), texture.what), colours));
+    auto table = std::make_shared<PictureTable>(PictureTable::of_image(read_image(bytes, texture.what), colours));
     pixels_ += static_cast<std::size_t>(table->width()) * static_cast<std::size_t>(table->height());
     if (pixels_ > most_pixels)
         throw InputError(texture.what,
@@ -127,11 +120,12 @@ std::shared_ptr<const PictureTable> LaidPictures::table_of(const FileTexture& te
 Varying LaidPictures::laid(const FileTexture& texture)
 {
     const bool colours = texture.use == Use::colour;
+    std::string bytes = bytes_of(texture, texture.what);
     auto given = std::make_shared<PatternReader::GivenPicture>();
-    given->identity = identity_of(texture);
-    given->table = table_of(texture, given->identity);
+    given->identity = std::to_string(bytes.size()) + " " + std::to_string(std::hash<std::string>{}(bytes));
+    given->table = table_of(texture, bytes, given->identity);
     if (texture.bytes || texture.length > 0)
-        given->contents = bytes_of(texture, texture.what);
+        given->contents = std::move(bytes);
     else
         given->file = texture.file.string();
     PatternReader::Request request;

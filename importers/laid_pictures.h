@@ -34,7 +34,8 @@ public:
     std::vector<Varying> on(const std::string& file_material);
 
 private:
-    std::shared_ptr<const PictureTable> table_of(const FileTexture& texture, const std::string& identity);
+    std::shared_ptr<const PictureTable> table_of(const FileTexture& texture, const std::string& bytes,
+                                                 const std::string& identity);
     Varying laid(const FileTexture& texture);
 
     Imported& imported_;

@@ -262,6 +262,8 @@ private:
             return given->table;
         }
         const fs::path path = file("a picture");
+        const MappedFile mapped(path);
+        text_.contents += std::to_string(std::hash<std::string_view>{}(mapped.bytes())); // pictures change too
         return stored ? kept(reader_.stored_pictures_, path, [&] { return PictureTable::read_stored(path); })
                       : kept(reader_.pictures_, path, [&] { return PictureTable::read(path); });
     }

@@ -40,9 +40,7 @@ protected:
 const std::string inputs = "[inputs]\nfiles = [\"a.dxf\"]\n";
 const std::string place = "[place]\nlatitude = 52.5\nlongitude = 13.4\nutc_offset = 2\ntime = \"2026-06-21T12:30\"\n";
 
-TEST_F(ProjectFile, EveryWordArrives)
-{
-    const Project project = read(R"(
+const char* const every_word = R"(
 [inputs]
 files = ["house.dxf", "trees/oak.obj"]
 map = "map.toml"
@@ -81,7 +79,11 @@ seed = 7
 folder = "results"
 png = false
 hdr = true
-)");
+)";
+
+TEST_F(ProjectFile, EveryWordArrives)
+{
+    const Project project = read(every_word);
     ASSERT_EQ(project.inputs.files.size(), 2u);
     EXPECT_EQ(project.inputs.files[1], folder_ / "trees/oak.obj");
     EXPECT_EQ(project.inputs.map, folder_ / "map.toml");

@@ -1,5 +1,6 @@
 #include "engine/base/files.h"
 #include "engine/pictures/png.h"
+#include "engine/scene/scene_hash.h"
 #include "engine/scene/varied_materials.h"
 #include "engine/simulate/simulate.h"
 #include "importers/laid_pictures.h"
@@ -232,6 +233,24 @@ TEST(LaidPictures, APictureThatIsGoneWhenItIsLaidLeavesTheMean)
     EXPECT_FALSE(VariedMaterials(imported.scene).any());
     const auto left_out = [](const Note& note) { return note.text.find("picture left out") != std::string::npos; };
     EXPECT_EQ(std::count_if(imported.report.notes().begin(), imported.report.notes().end(), left_out), 1);
+}
+
+TEST(LaidPictures, AnotherPictureOfTheSameMeanIsAnotherSceneForCaches)
+{
+    const SceneFolder folder;
+    const std::string text = "void colorpict p 7 red green blue p.png . Px Py 0 0\np plastic m 0 0 5 1 1 1 0 0\n"
+                             "m sphere s 0 0 4 0 0 0 1\n";
+    std::vector<std::uint64_t> laid, written;
+    for (const std::uint8_t left : {188, 128, 188}) {
+        const std::uint8_t right = left == 188 ? 128 : 188;
+        write_png({2, 1, {left, left, left, right, right, right}}, folder.path("p.png"));
+        laid.push_back(scene_hash(dressed_square(folder, "Kd 1 1 1\nmap_Kd p.png")));
+        written.push_back(scene_hash(folder.read(text)));
+    }
+    EXPECT_NE(laid[0], laid[1]);
+    EXPECT_EQ(laid[0], laid[2]);
+    EXPECT_NE(written[0], written[1]);
+    EXPECT_EQ(written[0], written[2]);
 }
 
 TEST(LaidPictures, AHugePictureIsMadeSmallerWithoutChangingItsMean)
