@@ -341,6 +341,25 @@ TEST(Export, HostileNamesStayOneNameEach)
         EXPECT_EQ(summarize_layers(folder.round(model, name)).size(), 6u) << name;
 }
 
+TEST(Export, PicturesOfMaterialsLeaveTheirMeanAndANote)
+{
+    const Folder folder;
+    const Imported model = import_file(LIGHTWELL_ROOT "/tests/fixtures/gltf/looks.glb", {});
+    Report report;
+    export_file(model, folder / "looks.obj", {}, report);
+    const auto& notes = report.notes();
+    const auto said = std::find_if(notes.begin(), notes.end(), [](const Note& note) {
+        return note.text.find("pictures on surfaces are not written") != std::string::npos;
+    });
+    ASSERT_NE(said, notes.end());
+    EXPECT_EQ(said->count, 3u); // Pictured: colour and normals; Holes
+    const Imported again = import_file(folder / "looks.obj", {});
+    const auto pictured = std::find_if(again.file_materials.begin(), again.file_materials.end(),
+                                       [](const auto& own) { return own.first == "Pictured"; });
+    ASSERT_NE(pictured, again.file_materials.end());
+    EXPECT_NEAR(to_rec709(std::get<Plastic>(pictured->second).colour).g, 0.502886, 0.03); // sRGB 188, under a varnish
+}
+
 TEST(Export, AnEmptyModelAndAnUnknownEndingAreAnswered)
 {
     const Folder folder;
