@@ -1,3 +1,5 @@
+#include "materials/photometry_ies.h"
+
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
 #include "materials/photometry.h"
@@ -70,13 +72,13 @@ std::size_t tilt_line(std::string_view text)
     return std::string_view::npos;
 }
 
-std::string keyword(std::string_view head, std::string_view word)
+/// What follows a keyword of the label.
+std::string keyword(const std::vector<std::string>& label, std::string_view word)
 {
-    const std::size_t at = head.find(word);
-    if (at == std::string_view::npos)
-        return {};
-    const std::string_view rest = head.substr(at + word.size());
-    return to_utf8(trimmed(rest.substr(0, rest.find_first_of("\r\n"))));
+    for (const std::string& line : label)
+        if (const std::size_t at = line.find(word); at != std::string::npos)
+            return std::string(trimmed(std::string_view(line).substr(at + word.size())));
+    return {};
 }
 
 using Shape = Photometry::Opening::Shape;
@@ -122,31 +124,80 @@ Photometry::Opening opening_of(double width, double length, double height)
 }
 
 /// How much light the lamps give when the luminaire is tilted.
-void take_tilt(IesNumbers& numbers, Photometry& photometry)
+void take_tilt(IesNumbers& numbers, IesFile& file)
 {
-    numbers.next("the lamp's position");
+    file.tilt_position = static_cast<int>(numbers.count("the lamp's position", 1));
     const std::size_t pairs = numbers.count("the number of tilt angles", 1);
-    photometry.tilt_deg = numbers.list(pairs, "a tilt angle");
-    photometry.tilt_share = numbers.list(pairs, "a tilt factor");
+    file.tilt_deg = numbers.list(pairs, "a tilt angle");
+    file.tilt_share = numbers.list(pairs, "a tilt factor");
     for (std::size_t i = 0; i < pairs; ++i) {
         constexpr double most_share = 10; // lamps give somewhat more or less when they are tilted
-        if (i > 0 && !(photometry.tilt_deg[i] > photometry.tilt_deg[i - 1]))
+        if (i > 0 && !(file.tilt_deg[i] > file.tilt_deg[i - 1]))
             throw InputError{numbers.place(), "tilt angles do not ascend"};
-        if (!(photometry.tilt_share[i] >= 0 && photometry.tilt_share[i] <= most_share))
-            throw InputError{numbers.place(), "a tilt factor is " + shortest(photometry.tilt_share[i]) +
-                                                  ", expected 0 to " + shortest(most_share)};
+        if (!(file.tilt_share[i] >= 0 && file.tilt_share[i] <= most_share))
+            throw InputError{numbers.place(), "a tilt factor is " + shortest(file.tilt_share[i]) + ", expected 0 to " +
+                                                  shortest(most_share)};
     }
 }
 
 /// A size in the file's unit; the longest luminaires have a hundred metres.
-double size_m(IesNumbers& numbers, const char* what, double unit)
+double size_of(IesNumbers& numbers, const char* what, double unit)
 {
     constexpr double longest_m = 1000;
-    const double size = numbers.next(what) * unit;
-    if (!(std::fabs(size) <= longest_m))
-        throw InputError{numbers.place(), std::string(what) + " is " + shortest(size) + " m, expected at most " +
+    const double size = numbers.next(what);
+    if (!(std::fabs(size * unit) <= longest_m))
+        throw InputError{numbers.place(), std::string(what) + " is " + shortest(size * unit) + " m, expected at most " +
                                               shortest(longest_m) + " m"};
     return size;
+}
+
+/// A word of the file that is one of two or three numbers.
+int choice(IesNumbers& numbers, const char* what, int most, const char* expected)
+{
+    const double number = numbers.next(what);
+    for (int i = 1; i <= most; ++i)
+        if (number == i)
+            return i;
+    throw InputError{numbers.place(), std::string(what) + " is " + shortest(number) + ", expected " + expected};
+}
+
+/// Everything behind the table of tilts.
+void take_photometry(IesNumbers& numbers, IesFile& file)
+{
+    file.lamps = numbers.next("the number of lamps");
+    file.lumens = numbers.next("the lumens of a lamp");
+    file.multiplier = numbers.next("the multiplier");
+    const std::size_t verticals = numbers.count("the number of vertical angles", 2);
+    const std::size_t planes = numbers.count("the number of horizontal angles", 1);
+    file.type = choice(numbers, "the photometric type", 3, "1 (C), 2 (B) or 3 (A)");
+    file.metres = choice(numbers, "the unit", 2, "1 (feet) or 2 (metres)") == 1 ? metres_per_foot : 1;
+    file.width = size_of(numbers, "the width", file.metres);
+    file.length = size_of(numbers, "the length", file.metres);
+    file.height = size_of(numbers, "the height", file.metres);
+    file.ballast_factor = numbers.next("the ballast factor");
+    file.lamp_factor = numbers.next("the ballast-lamp factor");
+    file.watts = numbers.next("the input watts");
+    file.vertical_deg = numbers.list(verticals, "a vertical angle");
+    file.horizontal_deg = numbers.list(planes, "a horizontal angle");
+    file.candela = numbers.list(planes * verticals, "a candela value");
+    const double factor = file.multiplier * file.ballast_factor * file.lamp_factor;
+    for (const double candela : file.candela)
+        if (!(candela * factor >= 0 && std::isfinite(candela * factor)))
+            throw InputError{numbers.place(),
+                             std::string("a candela value is ") + shortest(candela * factor) + ", expected at least 0"};
+}
+
+/// The lines of a text without their ends, UTF-8.
+std::vector<std::string> lines_of(std::string_view text)
+{
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string_view line = text.substr(at, end - at);
+        lines.push_back(to_utf8(line.substr(0, line.find('\r'))));
+        at = end + 1;
+    }
+    return lines;
 }
 
 } // namespace
@@ -156,58 +207,59 @@ bool looks_like_ies(std::string_view text)
     return tilt_line(text) != std::string_view::npos;
 }
 
-Photometry parse_ies(std::string_view text, const std::string& file_name, Report& report)
+IesFile read_ies_file(std::string_view text, const std::string& file_name, Report& report)
 {
     const std::size_t tilt = tilt_line(text);
     if (tilt == std::string_view::npos)
         throw InputError{file_name, "no line TILT=", "expected a file of the form IES LM-63"};
     const std::size_t end = std::min(text.find('\n', tilt), text.size());
-    const std::string tilt_word = lowercase_ascii(trimmed(text.substr(tilt + 5, end - tilt - 5)));
-    const auto lines =
-        static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tilt), '\n'));
-    IesNumbers numbers{text.substr(end), lines + 1, file_name};
-    Photometry photometry;
-    if (tilt_word == "include")
-        take_tilt(numbers, photometry);
-    else if (tilt_word != "none")
-        photometry.tilt_file = std::string(trimmed(text.substr(tilt + 5, end - tilt - 5)));
-    photometry.name = keyword(text.substr(0, tilt), "[LUMINAIRE]");
-    const double lamps = numbers.next("the number of lamps"), lumens = numbers.next("the lumens of a lamp");
-    const double multiplier = numbers.next("the multiplier");
-    const std::size_t verticals = numbers.count("the number of vertical angles", 2);
-    const std::size_t planes = numbers.count("the number of horizontal angles", 1);
-    const double type = numbers.next("the photometric type"), unit = numbers.next("the unit");
-    if (type != 1 && type != 2 && type != 3)
-        throw InputError{numbers.place(),
-                         std::string("the photometric type is ") + shortest(type) + ", expected 1 (C), 2 (B) or 3 (A)"};
-    photometry.type = type == 1 ? Photometry::Type::C : type == 2 ? Photometry::Type::B : Photometry::Type::A;
-    if (unit != 1 && unit != 2)
-        throw InputError{numbers.place(),
-                         std::string("the unit is ") + shortest(unit) + ", expected 1 (feet) or 2 (metres)"};
-    const double metres = unit == 1 ? metres_per_foot : 1;
-    const double width = size_m(numbers, "the width", metres), length = size_m(numbers, "the length", metres);
-    photometry.opening = opening_of(width, length, size_m(numbers, "the height", metres));
-    const double ballast = numbers.next("the ballast factor"), lamp_factor = numbers.next("the ballast-lamp factor");
-    photometry.watts = numbers.next("the input watts");
-    photometry.lamp_lumens = lumens > 0 ? lamps * lumens : 0;
-    photometry.vertical_deg = numbers.list(verticals, "a vertical angle");
-    photometry.horizontal_deg = numbers.list(planes, "a horizontal angle");
-    photometry.candela = numbers.list(planes * verticals, "a candela value");
-    const double factor = multiplier * ballast * lamp_factor;
-    for (double& candela : photometry.candela)
-        if (candela *= factor; !(candela >= 0 && std::isfinite(candela)))
-            throw InputError{numbers.place(),
-                             std::string("a candela value is ") + shortest(candela) + ", expected at least 0"};
+    IesFile file;
+    file.label = lines_of(text.substr(0, tilt));
+    file.tilt = std::string(trimmed(text.substr(tilt + 5, end - tilt - 5)));
+    IesNumbers numbers{text.substr(end), file.label.size() + 1, file_name};
+    if (lowercase_ascii(file.tilt) == "include")
+        take_tilt(numbers, file);
+    take_photometry(numbers, file);
     if (!numbers.at_end())
         report.add(Finding::ignored, numbers.place(), "what stands behind the intensities is not read");
+    return file;
+}
+
+void read_tilt_table(std::string_view text, const std::string& file_name, IesFile& file)
+{
+    IesNumbers numbers{text, 1, file_name};
+    take_tilt(numbers, file);
+}
+
+Photometry parse_ies(std::string_view text, const std::string& file_name, Report& report)
+{
+    IesFile file = read_ies_file(text, file_name, report);
+    Photometry photometry;
+    photometry.type = file.type == 1 ? Photometry::Type::C : file.type == 2 ? Photometry::Type::B : Photometry::Type::A;
+    photometry.name = keyword(file.label, "[LUMINAIRE]");
+    const std::string tilt = lowercase_ascii(file.tilt);
+    if (tilt != "include" && tilt != "none")
+        photometry.tilt_file = file.tilt;
+    photometry.opening = opening_of(file.width * file.metres, file.length * file.metres, file.height * file.metres);
+    photometry.watts = file.watts;
+    photometry.lamp_lumens = file.lumens > 0 ? file.lamps * file.lumens : 0;
+    photometry.vertical_deg = std::move(file.vertical_deg);
+    photometry.horizontal_deg = std::move(file.horizontal_deg);
+    photometry.tilt_deg = std::move(file.tilt_deg);
+    photometry.tilt_share = std::move(file.tilt_share);
+    photometry.candela = std::move(file.candela);
+    for (double& candela : photometry.candela)
+        candela *= file.multiplier * file.ballast_factor * file.lamp_factor;
     complete_planes(photometry, file_name);
     return photometry;
 }
 
 void parse_tilt(std::string_view text, const std::string& file_name, Photometry& photometry)
 {
-    IesNumbers numbers{text, 1, file_name};
-    take_tilt(numbers, photometry);
+    IesFile file;
+    read_tilt_table(text, file_name, file);
+    photometry.tilt_deg = std::move(file.tilt_deg);
+    photometry.tilt_share = std::move(file.tilt_share);
 }
 
 } // namespace lightwell

@@ -76,5 +76,35 @@ TEST(RecordedCommands, TransformsHaveTheRecordedText)
     }
 }
 
+/// What a photometric file becomes, number by number; comments and names count as they stand.
+TEST(RecordedCommands, LampsHaveTheRecordedTextAndTables)
+{
+    const nlohmann::json data = recorded("ies2rad-outputs.json");
+    if (data.is_null())
+        GTEST_SKIP() << "the records of the original programs are not here";
+    int compared = 0;
+    for (const auto& one : data["cases"]) {
+        const WorkFolder folder;
+        const std::filesystem::path source = shared_data() / "fixtures/photometry" / one["file"].get<std::string>();
+        const std::string input = "in" + source.extension().string();
+        std::filesystem::copy_file(source, input);
+        auto words = words_of("ies2rad", one["args"]);
+        words.push_back(input);
+        SCOPED_TRACE(one["file"].get<std::string>());
+        const Ran ran = run(words);
+        EXPECT_EQ(ran.status, one["exit_status"].get<int>()) << ran.err;
+        const std::string expected_err = one["stderr"];
+        if (ran.status == 0)
+            EXPECT_EQ(ran.err, expected_err);
+        else
+            EXPECT_EQ(ran.err, "ies2rad: fatal - " + expected_err);
+        for (const auto& [name, text] : one["outputs"].items()) {
+            EXPECT_EQ(difference(WorkFolder::read(name), text, 1e-6, 0), "") << name;
+            ++compared;
+        }
+    }
+    EXPECT_EQ(compared, 15);
+}
+
 } // namespace
 } // namespace lightwell::commands
