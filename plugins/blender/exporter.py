@@ -42,13 +42,19 @@ class Exported:
     notes: list = field(default_factory=list)
 
 
-class Exporter:
-    """export() walks the graph once. `view_size`: pixels of the pictures, which decide the shape of views."""
+class Stopped(Exception):
+    """Somebody asked for the end of it."""
 
-    def __init__(self, depsgraph, path, view_size):
+
+class Exporter:
+    """export() walks the graph once. `view_size`: pixels of the pictures, which decide the shape of views; `stop` is
+    asked at every object.
+    """
+
+    def __init__(self, depsgraph, path, view_size, stop=lambda: False):
         self.depsgraph, self.scene = depsgraph, depsgraph.scene
         self.scale = self.scene.unit_settings.scale_length
-        self.size = view_size
+        self.size, self.stop = view_size, stop
         self.folder, self.out = SceneFolder(path), Exported()
         self._pictures = Pictures(self.folder, self.out.notes)
         self._looks = LookReader(self.out.notes, self._pictures)
@@ -56,7 +62,10 @@ class Exporter:
         self._lit = False
 
     def export(self):
+        """@throws Stopped"""
         for drawn in drawn_objects(self.depsgraph, GEOMETRY | {"LIGHT"}):
+            if self.stop():
+                raise Stopped
             if drawn.original.lightwell.is_grid:
                 continue
             if drawn.evaluated.type == "LIGHT":

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from . import library_materials, session
-from .exporter import Exporter
+from .exporter import Exporter, Stopped
 from .lightwell_bridge import exr
 from .lightwell_bridge.client import sentence_of
 from .viewport import Viewport
@@ -30,8 +30,11 @@ class LightwellEngine(bpy.types.RenderEngine):
     def render(self, depsgraph):
         try:
             self._render(depsgraph)
+        except Stopped:
+            pass
         except Exception as error:  # the edge to the host
-            self._complain(error)
+            if not (self.test_break() and isinstance(error, session.EngineError)):
+                self._complain(error)
 
     def view_update(self, context, depsgraph):
         try:
@@ -80,7 +83,7 @@ class LightwellEngine(bpy.types.RenderEngine):
         kept = session.session("render")
         self.update_stats("Lightwell", "writing the scene")
         library_materials.known(session.engine_path())
-        exported = Exporter(depsgraph, kept.folder(), size).export()
+        exported = Exporter(depsgraph, kept.folder(), size, self.test_break).export()
         self._tell(exported.notes)
         if scene.camera.name not in exported.views:
             raise ValueError(f"camera \"{scene.camera.name}\" has no view that the engine knows; see the notes above")

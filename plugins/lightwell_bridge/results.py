@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+# A front with less than this share of the light on the back looks into a wall, or at nothing: a dim room below a sunlit roof has more.
+DARK_SHARE = 1e-4
+
 
 @dataclass
 class FaceLight:
@@ -28,10 +31,13 @@ class ObjectLight:
     faces: list = field(default_factory=list)
 
     def side(self):
-        """"front" or "back": where more light falls."""
+        """The side that is shown: "front", where faces look; "back" when the front is dark beside it.
+
+        Not the brighter one: the sun on its roof says nothing about a ceiling.
+        """
         front, back = (sum(f.area * lux for f in self.faces if math.isfinite(lux := getattr(f, side)))
                        for side in ("front", "back"))
-        return "front" if front >= back else "back"
+        return "back" if front < DARK_SHARE * back else "front"
 
     def lux(self, side=None):
         """n values of a side, that of side() when none is named."""
@@ -78,7 +84,7 @@ def mean_of(faces, side):
 
 
 def by_layer(objects):
-    """{layer: (m2, lx, error)}: each object by the side where more light falls."""
+    """{layer: (m2, lx, error)}: each object by the side that is shown."""
     layers = {}
     for light in objects:
         area, lux, error = light.mean()
@@ -126,19 +132,23 @@ def report(objects, grids, notes=()):
 
 
 def table(objects, grids):
-    """The same numbers as CSV: kind, name, layer, area, mean, error, minimum, maximum, uniformity."""
+    """The same numbers as CSV: kind, name, layer, area, mean, error, minimum, maximum, uniformity; of objects the side that
+    these belong to, and the mean of the other side."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["kind", "name", "layer", "area_m2", "mean_lx", "error_lx", "min_lx", "max_lx", "min_over_mean"])
+    writer.writerow(["kind", "name", "layer", "area_m2", "mean_lx", "error_lx", "min_lx", "max_lx", "min_over_mean", "side",
+                     "other_side_lx"])
     for grid in grids:
         s = grid.summary()
-        writer.writerow(["grid", grid.name, "", "", s["mean"], s["error"], s["min"], s["max"], s["uniformity"]])
+        writer.writerow(["grid", grid.name, "", "", s["mean"], s["error"], s["min"], s["max"], s["uniformity"], "", ""])
     for layer, (area, lux, error) in by_layer(objects).items():
-        writer.writerow(["layer", layer, layer, area, lux, error, "", "", ""])
+        writer.writerow(["layer", layer, layer, area, lux, error, "", "", "", "", ""])
     for light in objects:
         area, lux, error = light.mean()
         values = light.lux()
         values = values[np.isfinite(values)]
         low, high = (values.min(), values.max()) if len(values) else ("", "")
-        writer.writerow(["object", light.source, light.layer, area, lux, error, low, high, ""])
+        side = light.side()
+        other = light.mean("front" if side == "back" else "back")[1]
+        writer.writerow(["object", light.source, light.layer, area, lux, error, low, high, "", side, other])
     return out.getvalue()

@@ -19,9 +19,12 @@ class Means(unittest.TestCase):
         self.assertEqual(error, (3 * 4 + 12) / 4)
         self.assertEqual(light.side(), "front")
 
-    def test_the_side_with_more_light_counts_and_faces_without_a_value_do_not(self):
+    def test_the_front_counts_unless_it_is_dark_and_faces_without_a_value_do_not(self):
         light = ObjectLight("a", "L", [FaceLight(1, 0, 0, 80, 1), FaceLight(1, math.nan, math.nan, math.nan, math.nan)])
         self.assertEqual((light.side(), light.mean()), ("back", (1, 80, 1)))
+        ceiling = ObjectLight("Ceiling", "L", [FaceLight(24, 171, 2, 50000, 0)])
+        self.assertEqual((ceiling.side(), ceiling.mean()), ("front", (24, 171, 2)))
+        self.assertIn("object,Ceiling,L,24.0,171.0,2.0,171.0,171.0,,front,50000.0\n", results.table([ceiling], []))
 
     def test_layers_and_grids_are_summed_up(self):
         objects = [ObjectLight("a", "L", [FaceLight(1, 100, 0, 0, 0)]), ObjectLight("b", "L", [FaceLight(3, 300, 0, 0, 0)]),

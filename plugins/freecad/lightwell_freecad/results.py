@@ -22,6 +22,8 @@ MM_PER_M = 1000.0
 LEGEND_GAP, LEGEND_SHARE = 0.1, 0.5
 # Share of the area within the scale.
 SHOWN_AREA = 0.95
+# Of the table.
+COLUMNS = "ABCDEFGHIJK"
 # Surfaces and lines of a grid are drawn this far in front of each other, so that neither hides the other.
 LIFT_MM = 2.0
 
@@ -294,9 +296,9 @@ def _table(group, objects, grids, notes):
     for row, cells in enumerate(rows, 1):
         for column, text in enumerate(cells):
             if text:
-                sheet.set(f"{'ABCDEFGHIJ'[column]}{row}", _cell(text))
+                sheet.set(f"{COLUMNS[column]}{row}", _cell(text))
     sheet.setColumnWidth("B", 280)
-    sheet.setStyle("A1:I1", "bold", "add")
+    sheet.setStyle(f"A1:{COLUMNS[-1]}1", "bold", "add")
 
 
 def _cell(text):

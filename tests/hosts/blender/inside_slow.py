@@ -1,4 +1,4 @@
-"""Begins a render that takes a minute, and tells the number of the engine's process."""
+"""Begins a render that takes minutes, and tells the number of the engine's process."""
 
 import os
 import sys
@@ -6,9 +6,12 @@ import threading
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import bpy
 from inside import PATH, WORDS, addon, render
 
 os.environ["LIGHTWELL_ENGINE"] = WORDS[1]
+lighting = bpy.context.scene.lightwell
+lighting.quality, lighting.accuracy, lighting.sky = "ACCURACY", 0.5, "NONE"
 kept = addon("session").session("render")
 
 

@@ -2,7 +2,9 @@
 
 import json
 import os
+import subprocess
 import sys
+import threading
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -31,6 +33,8 @@ def prepare():
     scene.lightwell.surface_spacing = 0.5
     scene.lightwell.sky = "NONE"
     bpy.context.preferences.view.show_splash = False
+    # Drawing large pictures without a graphics card holds up the keys.
+    bpy.context.preferences.view.render_display_type = "NONE"
     for kind in ("DOPESHEET_EDITOR", "TIMELINE"):
         for area in areas(kind):
             area.ui_type = "TIMELINE"
@@ -43,6 +47,8 @@ def prepare():
     view.spaces[0].show_gizmo = False
     bpy.ops.lightwell.count_layers()
     open_panels()
+    # Where no tip covers a panel.
+    subprocess.run(["xdotool", "mousemove", "1270", "8"], check=True)
 
 
 def open_panels():
@@ -57,6 +63,40 @@ def open_panels():
 
 def viewport():
     return next(iter(addon("viewport").LIVE), None)
+
+
+def press_escape(pressed):
+    """As a person does; `pressed` gets the time."""
+    pressed.append(time.monotonic())
+    subprocess.run(["xdotool", "key", "Escape"], check=True)
+
+
+def stop_final_renders():
+    """Escape at several moments of a final picture: seconds until Blender says that the render has ended."""
+    scene = bpy.context.scene
+    scene.lightwell.accuracy = 0.5
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 1920, 1200, 100
+    ended, completed = [], []
+    bpy.app.handlers.render_cancel.append(lambda *_: ended.append(time.monotonic()))
+    bpy.app.handlers.render_complete.append(lambda *_: completed.append(True))
+    found["render_stop_seconds"] = []
+    subprocess.run(["xdotool", "mousemove", "700", "400"], check=True)
+    yield 1.0
+    for delay in (1.0, 2.0, 3.0, 4.5, 6.0):
+        ended.clear()
+        with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+            bpy.ops.render.render("INVOKE_DEFAULT")
+        yield delay
+        pressed = []
+        # In a thread: Blender's own turn of the loop sees the key.
+        threading.Thread(target=press_escape, args=(pressed,), daemon=True).start()
+        waited = time.monotonic()
+        while not ended and time.monotonic() - waited < 20:
+            yield 0.01
+        if ended:
+            found["render_stop_seconds"].append(ended[0] - pressed[0])
+        yield 0.3
+    found["renders_completed"] = len(completed)
 
 
 def steps():
@@ -101,6 +141,7 @@ def steps():
     found["report"] = report
     bpy.ops.lightwell.clear()
     found["same"] = fingerprint() == before
+    yield from stop_final_renders()
 
 
 running = steps()

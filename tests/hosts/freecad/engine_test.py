@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -20,6 +21,10 @@ import Part
 
 from lightwell_freecad import export, project, results, run
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from processes import alive
+
+HERE = pathlib.Path(host.__file__).parent
 LOPSIDED = host.ROOT / "tests" / "fixtures" / "hosts" / "lopsided.ies"
 FAKE_ENGINE = host.ROOT / "tests" / "bridge" / "fake_engine.py"
 ENGINE = os.environ.get("LIGHTWELL_ENGINE", "")
@@ -168,6 +173,28 @@ class WithEngine(InRoom):
             self.assertTrue(job.stopped, job.error)
             self.assertLess(took, STOPPED_WITHIN_S)
             self.assertEqual(content(self.document), self.before)
+
+    def test_the_engine_ends_when_freecad_is_killed(self):
+        told = self.folder() / "engine.pid"
+        words = dict(os.environ, LIGHTWELL_PID=str(told), LIGHTWELL_SCRIPT=str(HERE / "inside_slow.py"))
+        other = subprocess.Popen(["freecadcmd", str(HERE / "start.py")], env=words, stdin=subprocess.DEVNULL,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(other.wait)
+        self.addCleanup(other.kill)
+        begun = time.monotonic()
+        while not (told.exists() and told.read_text()):
+            self.assertIsNone(other.poll(), "FreeCAD has ended by itself")
+            self.assertLess(time.monotonic() - begun, 120)
+            time.sleep(0.05)
+        pid = int(told.read_text())
+        self.assertTrue(alive(pid))
+        other.kill()
+        other.wait()
+        killed = time.monotonic()
+        while alive(pid):
+            self.assertLess(time.monotonic() - killed, GONE_WITHIN_S)
+            time.sleep(0.01)
+        print(f"gone {1000 * (time.monotonic() - killed):.0f} ms after FreeCAD", file=host.ERRORS)
 
     def test_library_materials_are_chosen_by_the_layer_map(self):
         column = self.document.getObject("Column")

@@ -20,8 +20,8 @@ from PySide import QtCore, QtGui
 SIZE, PANEL_WIDTH = (1400, 860), 460
 # A job of the tutorial takes seconds on a machine of its own.
 LONGEST_S = 400
-# How long a click on Stop may take until the panel says so, on a machine that does other things too.
-STOPPED_WITHIN_S = 1.5
+# From a click on Stop until the panel, and the engine, say that they have: usually, and on a machine that does other things too.
+SOON_S, MOST_S = 0.2, 1.5
 
 
 def settle(seconds=0.3):
@@ -138,20 +138,28 @@ class Tutorial(unittest.TestCase):
         project = self.project()
         self.addCleanup(setattr, project, "Accuracy", project.Accuracy)
         project.Accuracy = 0.001
-        panel = self.panel_of("Lightwell_Illuminance")
-        begun = lambda: panel.job.phase and "illuminance" in panel.job.text
-        wait_for(lambda: begun() or not panel.timer.isActive())
-        self.assertTrue(begun(), panel.label.text())
-        self.shot("running")
-        asked = time.monotonic()
-        panel.stop.click()
-        self.assertTrue(wait_for(lambda: not panel.timer.isActive(), 20))
-        took = time.monotonic() - asked
-        print(f"stopped after {1000 * took:.0f} ms", file=host.ERRORS)
-        self.assertLess(took, STOPPED_WITHIN_S)
-        self.assertEqual(panel.label.text(), "Stopped; nothing was changed.")
-        self.assertEqual(project.SavedColours, "")
-        panel.reject()
+        took = []
+        for number in range(3):
+            panel = self.panel_of("Lightwell_Illuminance")
+            begun = lambda: panel.job.phase and "illuminance" in panel.job.text
+            wait_for(lambda: begun() or not panel.timer.isActive())
+            self.assertTrue(begun(), panel.label.text())
+            if number == 0:
+                self.shot("running")
+            asked = time.monotonic()
+            panel.stop.click()
+            self.assertTrue(wait_for(lambda: not panel.timer.isActive(), 20))
+            took.append(time.monotonic() - asked)
+            self.assertEqual(panel.label.text(), "Stopped; nothing was changed.")
+            self.assertEqual(project.SavedColours, "")
+            panel.reject()
+        from lightwell_freecad import run
+        engine = run.session_of(self.document).stop_seconds
+        self.assertTrue(wait_for(lambda: len(engine) == 3, 20))
+        for who, seconds in (("the panel", sorted(took)), ("the engine", sorted(engine))):
+            print(f"{who} stopped after {[round(1000 * s) for s in seconds]} ms", file=host.ERRORS)
+            self.assertLess(seconds[1], SOON_S)
+            self.assertLess(seconds[2], MOST_S)
 
     def test_4_the_objects_show_their_illuminance(self):
         panel = self.panel_of("Lightwell_Illuminance")
