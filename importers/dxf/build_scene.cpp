@@ -373,7 +373,8 @@ std::vector<Binding> SceneBuilder::bindings(Target& target, const Entity& insert
 void SceneBuilder::count_deviations(const Target& target, const Entity& entity)
 {
     deviations_.add(entity, shapes_.deviations, target.metres_per_unit);
-    if (deviations_.chords() > most_facets)
+    const std::size_t most = most_facets + further_facets_for_each_entity * drawing_.entities.size();
+    if (shapes_.deviations.chords > most_facets || deviations_.chords() > most)
         throw InputError{drawing_.place(entity),
                          fmt::format("curves need more than {} facets at a chord tolerance of {} m", most_facets,
                                      options_.chord_tolerance_m),

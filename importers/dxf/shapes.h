@@ -26,9 +26,12 @@ struct Deviations {
     std::size_t patterns = 0;        ///< areas filled with a pattern of lines, taken as if they were painted
 };
 
-/// A facet takes some 200 bytes: a gigabyte. Only a damaged radius or a tolerance without sense needs more; curves stop
-/// when they have more, and the drawing is refused.
-inline constexpr std::size_t most_facets = 5'000'000;
+/// A facet takes some 200 bytes: 200 MB. Only a damaged radius or a tolerance without sense needs more; the curves of
+/// an entity stop when they have more, and the drawing is refused.
+inline constexpr std::size_t most_facets = 1'000'000;
+/// So many more may a drawing have for each of its entities: that a file grows by some hundred bytes for each says that
+/// the curves are meant.
+inline constexpr std::size_t further_facets_for_each_entity = 64;
 
 /// The surfaces of one entity, in the frame of the model or block it is drawn in and in drawing units. Reused from
 /// entity to entity.
