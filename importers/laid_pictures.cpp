@@ -24,6 +24,13 @@ bool takes_colour(const Material& material, bool colours_panes)
            std::holds_alternative<Trans>(material) || (colours_panes && std::holds_alternative<Glass>(material));
 }
 
+bool is_sound(const FileTexture& texture)
+{
+    const auto finite = [](double number) { return std::isfinite(number); };
+    return std::all_of(texture.placement.to_picture.begin(), texture.placement.to_picture.end(), finite) &&
+           std::all_of(texture.strength.begin(), texture.strength.end(), finite);
+}
+
 std::string three_digits(const Spectrum& s)
 {
     const auto rounded = [](double value) { return shortest(std::round(1000 * value) / 1000); };
@@ -58,14 +65,15 @@ void settle_pictures(std::vector<FileTexture>& textures, std::size_t first, cons
     for (std::size_t i = first; i < textures.size(); ++i) {
         FileTexture& texture = textures[i];
         if (texture.use == Use::normal) {
-            texture.laid = !bent && texture.as_stored;
+            texture.laid = !bent && texture.as_stored && is_sound(texture);
             bent = true;
             report.add(texture.laid ? Finding::converted : Finding::unsupported, place,
-                       texture.what + (texture.laid ? " bends the normals of surfaces that have coordinates for it: "
-                                                      "highlights and light from lamps show it"
-                                                    : " is laid by other coordinates; the surface stays smooth"));
+                       texture.what + (texture.laid
+                                           ? " bends the normals of surfaces that have coordinates for it: "
+                                             "highlights and light from lamps show it"
+                                           : " is laid by coordinates that are not taken; the surface stays smooth"));
         } else if (texture.use == Use::colour) {
-            texture.laid = !coloured && texture.as_stored && takes_colour(material, colours_panes);
+            texture.laid = !coloured && texture.as_stored && is_sound(texture) && takes_colour(material, colours_panes);
             coloured = true;
             const std::string mean = texture.what + ": its mean, " + three_digits(texture.mean) + ", ";
             report.add(texture.laid ? Finding::converted : Finding::approximated, place,

@@ -253,6 +253,26 @@ TEST(LaidPictures, AnotherPictureOfTheSameMeanIsAnotherSceneForCaches)
     EXPECT_EQ(written[0], written[2]);
 }
 
+TEST(LaidPictures, NumbersThatAreNoneAndMaterialsWithoutColourLeaveTheMean)
+{
+    std::vector<FileTexture> textures(5);
+    for (FileTexture& texture : textures)
+        texture.use = FileTexture::Use::colour;
+    textures[0].placement.to_picture[2] = std::numeric_limits<double>::quiet_NaN();
+    textures[2].use = textures[3].use = textures[4].use = FileTexture::Use::normal;
+    textures[2].strength[0] = std::numeric_limits<double>::infinity();
+    Report report;
+    settle_pictures(textures, 0, Plastic{}, false, "here", report);
+    EXPECT_TRUE(pictured_materials(textures).empty()); // the first of each kind counts
+    for (const bool passes : {false, true}) {
+        std::vector<FileTexture> one(1, textures[1]);
+        settle_pictures(one, 0, Glass{}, passes, "here", report);
+        EXPECT_EQ(one[0].laid, passes);
+        settle_pictures(one, 0, Light{}, passes, "here", report);
+        EXPECT_FALSE(one[0].laid);
+    }
+}
+
 TEST(LaidPictures, AHugePictureIsMadeSmallerWithoutChangingItsMean)
 {
     ImageFile image;
