@@ -166,13 +166,4 @@ class LIGHTWELL_OT_illuminance(bpy.types.Operator):
 
 
 CLASSES = (LIGHTWELL_OT_illuminance,)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

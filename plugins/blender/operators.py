@@ -172,13 +172,4 @@ def _blocks():
 
 CLASSES = (LIGHTWELL_OT_check_engine, LIGHTWELL_OT_clear, LIGHTWELL_OT_propose, LIGHTWELL_OT_clear_map, LIGHTWELL_OT_save_map,
            LIGHTWELL_OT_load_map, LIGHTWELL_OT_export_table, LIGHTWELL_OT_export_scene, LIGHTWELL_OT_count_layers)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

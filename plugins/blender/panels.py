@@ -120,8 +120,11 @@ class LIGHTWELL_PT_results(_ScenePanel):
             line = self.layout.split(factor=0.5)
             icon = "MESH_GRID" if row["kind"] == "grid" else "OUTLINER_COLLECTION"
             line.label(text=row["name"].rsplit("/", 1)[-1] or "(scene)", icon=icon)
-            numbers = f"{float(row['mean_lx']):.0f} ± {float(row['error_lx']):.0f} lx"
-            line.label(text=numbers + (f", min/mean {float(row['min_over_mean']):.2f}" if row["kind"] == "grid" else ""))
+            line.label(text=f"{float(row['mean_lx']):.0f} ± {float(row['error_lx']):.0f} lx")
+            if row["kind"] == "grid":
+                line = self.layout.split(factor=0.5)
+                line.label(text="minimum/mean", icon="BLANK1")
+                line.label(text=f"{float(row['min_over_mean']):.2f}")
         self.layout.label(text=f"All numbers: text \"{show_results.TEXT}\"")
 
 
@@ -175,13 +178,4 @@ class LIGHTWELL_PT_object(_DataPanel):
 
 CLASSES = (LightwellPreferences, LIGHTWELL_PT_scene, LIGHTWELL_PT_results, LIGHTWELL_PT_quality, LIGHTWELL_PT_sky, LIGHTWELL_PT_luminaires,
            LIGHTWELL_PT_layers, LIGHTWELL_PT_material, LIGHTWELL_PT_lamp, LIGHTWELL_PT_object)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

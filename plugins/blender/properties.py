@@ -100,11 +100,11 @@ CLASSES = (MaterialSettings, LampSettings, CollectionSettings, ObjectSettings, G
 _OWNERS = ((bpy.types.Material, MaterialSettings, "lightwell"), (bpy.types.Light, LampSettings, "lightwell"),
            (bpy.types.Collection, CollectionSettings, "lightwell"), (bpy.types.Object, ObjectSettings, "lightwell"),
            (bpy.types.Object, GridSettings, "lightwell_grid"), (bpy.types.Scene, SceneSettings, "lightwell"))
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 
 
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register_classes()
     for owner, group, name in _OWNERS:
         setattr(owner, name, PointerProperty(type=group))
 
@@ -112,5 +112,4 @@ def register():
 def unregister():
     for owner, _, name in _OWNERS:
         delattr(owner, name)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister_classes()

@@ -1,5 +1,7 @@
 #!/usr/bin/python3
-"""beside_cycles.py OUT.png [WIDTH]: the office by Cycles, by Lightwell, and luminance over luminance, with numbers by layer.
+"""beside_cycles.py OUT.png [WIDTH [alike]]: the office by Cycles, by Lightwell, and luminance over luminance, with numbers by layer.
+
+With `alike`, matt surfaces are Diffuse BSDF in place of Principled, there is no sun, and nothing has photometric numbers.
 
 Needs LIGHTWELL (the engine), Blender and the shared fixtures. Pictures are in W/(m2 sr) and exposed alike; the ratio's colours go from
 one half (violet) over 1 (green) to 2 (yellow). Printed: median ratio of each layer, with the part of the picture it covers.
@@ -24,9 +26,9 @@ GAP = 8
 class Beside(InBlender):
     """Not a test: it measures."""
 
-    def pictures(self, width):
+    def pictures(self, width, how):
         height = round(width * 0.625)
-        self.answer = self.blender("inside_cycles.py", width, height, LIGHTWELL_SAMPLES, CYCLES_SAMPLES, file=OFFICE)
+        self.answer = self.blender("inside_cycles.py", width, height, LIGHTWELL_SAMPLES, CYCLES_SAMPLES, how, file=OFFICE)
         return exr.read(self.path / "lightwell.exr")[1], exr.read(self.path / "cycles.exr")[1]
 
 
@@ -47,10 +49,10 @@ def by_layer(ratio, index, lit):
         yield number, here.mean(), low, middle, high
 
 
-def main(out, width=320):
+def main(out, width=320, how="as drawn"):
     Beside.setUpClass()
     try:
-        ours, theirs = Beside("pictures").pictures(int(width))
+        ours, theirs = Beside("pictures").pictures(int(width), how)
     finally:
         Beside.tearDownClass()
     lightwell, cycles = colours(ours), colours(theirs)

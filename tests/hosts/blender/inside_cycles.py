@@ -8,6 +8,47 @@ import bpy
 from inside import PATH, WORDS, answer, render
 
 scene = bpy.context.scene
+
+
+def alike():
+    """Where the same words mean other light in Cycles: photometric numbers, which it does not read; the sun, which comes
+    through panes here and is stopped by them there; the matt part of Principled, which is rough there (Burley) and
+    Lambert's here."""
+    for block in (*bpy.data.objects, *bpy.data.materials):
+        for name in [name for name in block.keys() if name.startswith("lw_")]:
+            del block[name]
+    for obj in bpy.data.objects:
+        obj.hide_render = obj.hide_render or obj.type == "LIGHT" and obj.data.type == "SUN"
+    for material in bpy.data.materials:
+        tree = material.node_tree
+        old = tree.nodes.get("Principled BSDF") if material.use_nodes else None
+        if old is None or old.inputs["Metallic"].default_value > 0 or old.inputs["Transmission"].default_value > 0 or \
+                old.inputs["Emission Strength"].default_value * max(old.inputs["Emission"].default_value[:3]) > 0:
+            continue
+        matt, colour = tree.nodes.new("ShaderNodeBsdfDiffuse"), old.inputs["Base Color"]
+        matt.inputs["Color"].default_value = colour.default_value
+        for link in colour.links:
+            tree.links.new(link.from_socket, matt.inputs["Color"])
+        for link in list(old.outputs["BSDF"].links):
+            tree.links.new(matt.outputs["BSDF"], link.to_socket)
+
+
+def dark_backs():
+    """Emission from fronts alone, as in Lightwell: in Cycles panels shine onto the ceiling that they hang from, too."""
+    for material in bpy.data.materials:
+        tree = material.node_tree
+        old = tree.nodes.get("Principled BSDF") if material.use_nodes else None
+        if old is not None and old.inputs["Emission Strength"].default_value * max(old.inputs["Emission"].default_value[:3]) > 0:
+            side, front = tree.nodes.new("ShaderNodeNewGeometry"), tree.nodes.new("ShaderNodeMath")
+            front.operation, front.inputs[0].default_value = "MULTIPLY_ADD", 0
+            tree.links.new(side.outputs["Backfacing"], front.inputs[0])
+            front.inputs[1].default_value = -old.inputs["Emission Strength"].default_value
+            front.inputs[2].default_value = old.inputs["Emission Strength"].default_value
+            tree.links.new(front.outputs[0], old.inputs["Emission Strength"])
+
+
+if WORDS[5] == "alike":
+    alike()
 size = dict(resolution_x=int(WORDS[1]), resolution_y=int(WORDS[2]), resolution_percentage=100)
 # The skies of the two are different models: lamps, emitting panels and the sun lamp alone.
 scene.lightwell.sky = "NONE"
@@ -15,6 +56,8 @@ scene.world.use_nodes, scene.world.color = False, (0, 0, 0)
 scene.lightwell.quality, scene.lightwell.samples = "SAMPLES", int(WORDS[3])
 scene.view_layers[0].use_pass_z = True
 result = {"lightwell": render("lightwell.exr", **size)}
+if WORDS[5] == "alike":
+    dark_backs()
 scene.render.engine = "CYCLES"
 cycles = scene.cycles
 cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = int(WORDS[4]), False, False

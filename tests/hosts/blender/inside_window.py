@@ -48,7 +48,7 @@ def prepare():
     bpy.ops.lightwell.count_layers()
     open_panels()
     # Where no tip covers a panel.
-    subprocess.run(["xdotool", "mousemove", "1270", "8"], check=True)
+    subprocess.run(["xdotool", "mousemove", "640", "892"], check=True)
 
 
 def open_panels():
