@@ -5,7 +5,8 @@ import pathlib
 
 from blender import OFFICE, InBlender, run
 
-SOON_S, MOST_S = 0.2, 1.0
+# Half of the stops, and the slowest on a machine whose other programs hold up the window.
+SOON_S, MOST_S = 0.2, 3.0
 
 
 class Window(InBlender):
