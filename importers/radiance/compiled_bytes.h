@@ -116,7 +116,8 @@ public:
             bytes(rest_.size() + 1); // refuses
         const std::string_view piece = bytes(count * sizeof(T));
         std::vector<T> values(count);
-        std::memcpy(static_cast<void*>(values.data()), piece.data(), piece.size());
+        if (count > 0) // an empty list has no place to copy to
+            std::memcpy(static_cast<void*>(values.data()), piece.data(), piece.size());
         return values;
     }
     std::string_view text() { return bytes(value<std::uint64_t>()); }

@@ -122,9 +122,12 @@ void SceneReader::include(const Xform& xform, OpenFile& file, const std::string&
     std::optional<ModifierId> modifier;
     if (xform.modifier) {
         const Primitive stand_in{*xform.modifier, "!xform", *xform.modifier, {}, {}, file.words.offset()};
-        modifier = usable(file, stand_in, meaning_of(file, stand_in, *xform.modifier, target));
+        const Meaning meaning = meaning_of(file, stand_in, *xform.modifier, target);
+        modifier = usable(file, stand_in, meaning);
+        file.included_as = meaning;
     }
     Fragment& shared = fragment(xform.files, file, place, target);
+    file.included_as.reset();
     const std::size_t surfaces = part_of(shared).surfaces.size();
     if ((!shared.prototype || shared.turns || shared.scales) && surfaces > most_copies / xform.placements.size())
         refuse_copies(place);
@@ -149,6 +152,8 @@ SceneReader::Fragment& SceneReader::fragment(const std::vector<std::filesystem::
     std::vector<std::filesystem::path> key;
     for (const std::filesystem::path& path : files)
         key.push_back(std::filesystem::weakly_canonical(path));
+    if (file.included_as)
+        key.emplace_back("-m"); // its surfaces may name what is not known
     for (const auto& known : fragments_[key]) {
         const auto& seen = known->scope->seen_outside();
         if (std::all_of(seen.begin(), seen.end(),

@@ -21,6 +21,11 @@ Meaning SceneReader::meaning_of(OpenFile& file, const Primitive& primitive, std:
         return {};
     const std::string decoded = decoded_name(name);
     const auto meaning = target.scope.find(decoded);
+    // The modifier that `!xform -m` gives to surfaces need not replace one that is known.
+    if (!meaning && classify(primitive.type) == TypeClass::surface)
+        for (const OpenFile* around = file.from; around != nullptr; around = around->from)
+            if (around->included_as)
+                return *around->included_as;
     if (!meaning)
         throw InputError{file.words.place(primitive), fmt::format("modifier \"{}\" is not defined above", decoded),
                          parse_double(name) ? "check the counts of the primitive before it"

@@ -35,6 +35,8 @@ private:
         Meaning last_meaning = {};
         bool last_known = false;
         bool sharp_horizon = false; ///< of the next sky
+        /// While files are included by `!xform -m`: what their surfaces are made of, whatever they name.
+        std::optional<Meaning> included_as = {};
         /// Prototypes of the files that its instances name: spares the search for each of a million instances.
         std::unordered_map<std::string, std::uint32_t, NameHash, std::equal_to<>> instances = {};
     };

@@ -60,6 +60,20 @@ std::vector<double> as_in_text(const WorldSurface& surface)
     return numbers;
 }
 
+/// The numbers of a surface beside those of the text; directions there need not be unit vectors.
+void expect_same_numbers(const WorldSurface& surface, const std::string& name, const std::vector<double>& numbers)
+{
+    const std::vector<double> ours = as_in_text(surface);
+    ASSERT_EQ(ours.size(), numbers.size()) << name;
+    const auto shape = static_cast<Shape>(std::stoi(surface.type));
+    const std::size_t first = shape == Shape::ring ? 3 : shape == Shape::source ? 0 : numbers.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const double unit =
+            i >= first && i < first + 3 ? std::hypot(numbers[first], numbers[first + 1], numbers[first + 2]) : 1;
+        EXPECT_NEAR(ours[i], numbers[i] / unit, 1e-6 * std::fmax(1, std::fabs(numbers[i]))) << name << ' ' << i;
+    }
+}
+
 TEST(SceneCommands, TransformsAgreeWithTheRecordsOfTheOriginalProgram)
 {
     const std::filesystem::path record = shared_data() / "reference/xform-calls.json";
@@ -107,18 +121,7 @@ TEST(SceneCommands, TransformsAgreeWithTheRecordsOfTheOriginalProgram)
             while (next < found.size() && found[next].name != name)
                 ++next;
             ASSERT_LT(next, found.size()) << name;
-            const std::vector<double> ours = as_in_text(found[next]);
-            ASSERT_EQ(ours.size(), numbers.size()) << name;
-            const auto shape = static_cast<Shape>(std::stoi(found[next].type));
-            double unit = 1;
-            const std::size_t first = shape == Shape::ring ? 3 : shape == Shape::source ? 0 : numbers.size();
-            for (std::size_t i = 0; i < numbers.size(); ++i) {
-                if (first < numbers.size())
-                    unit = i >= first && i < first + 3
-                               ? std::hypot(numbers[first], numbers[first + 1], numbers[first + 2])
-                               : 1;
-                EXPECT_NEAR(ours[i], numbers[i] / unit, 1e-6 * std::fmax(1, std::fabs(numbers[i]))) << name << ' ' << i;
-            }
+            expect_same_numbers(found[next], name, numbers);
             ++next;
             ++compared;
         }
@@ -192,6 +195,26 @@ TEST(SceneCommands, AModifierGivenToXformReplacesThoseOfTheFile)
     EXPECT_EQ(world[119].modifier, "blue");
     for (std::size_t i = 120; i < 150; ++i)
         EXPECT_EQ(world[i].modifier, "gold");
+}
+
+TEST(SceneCommands, AShapeWithoutAMaterialTakesTheOneOfItsTransform)
+{
+    const SceneFolder folder;
+    folder.write("saucer.rad", "mat sphere s 0 0 4 0 0 0 1\n");
+    folder.write("pair.rad", "!xform -t 3 0 0 saucer.rad\nmat sphere t 0 0 4 0 0 0 1\n");
+    const std::string two = red + "void plastic blue 0 0 5 .1 .1 .7 0 0\n";
+    const std::vector<WorldSurface> world = world_surfaces(
+        folder.read(two + "!xform -m red saucer.rad\n!xform -m blue -t 0 0 2 saucer.rad\n!xform -m blue pair.rad\n"));
+    ASSERT_EQ(world.size(), 4u);
+    EXPECT_EQ(world[0].modifier, "red");
+    for (std::size_t i = 1; i < 4; ++i)
+        EXPECT_EQ(world[i].modifier, "blue");
+    // Without one, before or after, it is not known what it is made of.
+    const std::string known = two + "!xform -m red saucer.rad\n";
+    EXPECT_NE(folder.error(known + "!xform -t 1 0 0 saucer.rad\n").find("modifier \"mat\" is not defined above"),
+              std::string::npos);
+    EXPECT_NE(folder.error(known + "mat sphere u 0 0 4 0 0 0 1\n").find("modifier \"mat\" is not defined above"),
+              std::string::npos);
 }
 
 TEST(SceneCommands, ScalingChangesMaterialsThatKnowLengthsAndTurningTurnsSkies)
