@@ -1,8 +1,6 @@
-#include "engine/base/threads.h"
-#include "engine/sampling/statistics.h"
 #include "engine/sampling/warps.h"
 #include "engine/simulate/ambient_build.h"
-#include "engine/simulate/replicates.h"
+#include "engine/simulate/sensor_task.h"
 
 #include <algorithm>
 
@@ -15,116 +13,6 @@ constexpr int pilot_paths = 8 * pilot_samples;
 constexpr std::size_t many_sensors = 2000;
 /// Sensors checked against plain path tracing.
 constexpr std::size_t checked_sensors = 32;
-
-/// Keeps the random numbers of direct light and of rays apart.
-constexpr std::uint64_t direct_salt = 0x64697265;
-/// Rays of ambient light to one test of the lamps: their light is found exactly where nothing is half hidden.
-constexpr std::uint32_t rays_a_test = 16;
-
-struct SensorTask {
-    const PathTracer& tracer;
-    const std::vector<SurfacePlace>& places;
-    std::uint64_t seed;
-    const DeepField* deep; ///< null: plain paths, or records of the cache
-    std::optional<Spectrum> only_direct =
-        {}; ///< irradiance beside that of lamps and suns, W/m^2, where no other is wanted
-
-    /// Illuminance of a sensor, lx, by replicate.
-    /// @param same_paths  all replicates follow the same paths, so that only their ambient light differs
-    std::array<double, replicates> operator()(std::size_t i, int samples, bool same_paths) const
-    {
-        std::array<double, replicates> found{};
-        const auto each = static_cast<std::uint32_t>(samples / replicates);
-        for (int r = 0; r < replicates; ++r) {
-            const std::uint64_t key = mix_bits(seed, static_cast<std::uint64_t>(same_paths ? 0 : r));
-            const Spectrum irradiance = only_direct       ? direct(i, key, each).irradiance + *only_direct
-                                        : deep != nullptr ? by_hemisphere(i, r, key, each)
-                                                          : by_paths(i, r, key, each);
-            found[static_cast<std::size_t>(r)] = illuminance_of(irradiance).value;
-        }
-        return found;
-    }
-
-private:
-    struct Direct {
-        Spectrum irradiance;
-        double lamp_share = 0; ///< of the hemisphere, cosine-weighted
-    };
-    Direct direct(std::size_t i, std::uint64_t key, std::uint32_t tests) const
-    {
-        Direct sum;
-        for (std::uint32_t n = 0; n < tests; ++n) {
-            PathRandom random(mix_bits(key, direct_salt), i, n);
-            const DirectIrradiance found = tracer.sensor_direct(places[i], random);
-            sum.irradiance += (found.lamps + found.suns) / tests;
-            sum.lamp_share += found.lamp_share / tests;
-        }
-        return sum;
-    }
-    Spectrum by_paths(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
-    {
-        Spectrum sum;
-        for (std::uint32_t n = 0; n < count; ++n) {
-            PathRandom random(key, i, n);
-            sum += tracer.irradiance(places[i], replicate, random);
-        }
-        return sum / count;
-    }
-    Spectrum by_hemisphere(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
-    {
-        const Direct tested = direct(i, key, std::max(1u, count / rays_a_test));
-        Spectrum ambient;
-        const Frame frame = frame_about(places[i].normal);
-        std::vector<Dependence> dependences;
-        std::uint32_t others = 0;
-        for (std::uint32_t n = 0; n < count; ++n) {
-            PathRandom random(key, i, n);
-            const Direction direction = hemisphere_direction(frame, random.pair());
-            dependences.clear();
-            const Arrival arrival = tracer.arrive(places[i], direction, random, dependences);
-            ambient += arrival.irradiance + deep->sum(dependences, replicate);
-            others += arrival.met_lamp ? 0 : 1;
-        }
-        // How much of the hemisphere shows lamps is known better from the shadow rays than from these.
-        return tested.irradiance +
-               (others > 0 ? ambient * ((1 - std::min(1.0, tested.lamp_share)) / others) : Spectrum{});
-    }
-};
-
-RunningStatistics statistics_of(const std::array<double, replicates>& values)
-{
-    RunningStatistics statistics;
-    for (const double value : values)
-        statistics.add(value);
-    return statistics;
-}
-
-/// Every step-th sensor, from the first.
-struct Some {
-    std::vector<double> values, errors;
-    double mean_error = 0; ///< of the mean over the sensors, which share their ambient light
-};
-Some measure_some(const SensorTask& task, int samples, std::size_t step, int threads, Teller& teller,
-                  bool same_paths = false)
-{
-    const std::size_t count = (task.places.size() + step - 1) / step;
-    Some some{std::vector<double>(count), std::vector<double>(count)};
-    std::vector<std::array<double, replicates>> found(count);
-    parallel_for(count, threads, [&](std::size_t k) {
-        teller.check();
-        found[k] = task(k * step, samples, same_paths);
-        const RunningStatistics statistics = statistics_of(found[k]);
-        some.values[k] = statistics.mean();
-        some.errors[k] = statistics.standard_error();
-        teller.done_one();
-    });
-    std::array<double, replicates> means{};
-    for (const auto& sensor : found)
-        for (std::size_t r = 0; r < replicates; ++r)
-            means[r] += sensor[r] / static_cast<double>(count);
-    some.mean_error = statistics_of(means).standard_error();
-    return some;
-}
 
 std::size_t step_for(std::size_t sensors, std::size_t wanted)
 {
@@ -183,8 +71,9 @@ public:
 private:
     double error_with(int samples, bool same_paths)
     {
-        const std::size_t step = step_for(task_.places.size(), pilot_sensors);
-        const Some some = measure_some(task_, samples, step, threads_, teller_, same_paths);
+        const std::size_t count = task_.places.size();
+        const MeasuredSensors some = measure_sensors(task_, samples, every_of(step_for(count, pilot_sensors), count),
+                                                     threads_, teller_, same_paths);
         return median_relative(some.values, some.errors);
     }
     const SensorTask& task_;
@@ -209,17 +98,18 @@ double more_work(double work, double shared, double accuracy)
 /// Adds the bias to expect of each value, by plain path tracing at a few sensors.
 void add_bias(GridResult& result, const SensorTask& plain, int threads, Teller& teller)
 {
-    const std::size_t step = step_for(plain.places.size(), checked_sensors);
-    const auto measure = [&](int paths) {
-        const Some checks = measure_some(plain, paths, step, threads, teller);
+    const std::size_t count = plain.places.size();
+    const std::vector<std::size_t> sensors = every_of(step_for(count, checked_sensors), count);
+    const auto checked = [&](int paths) {
+        const MeasuredSensors checks = measure_sensors(plain, paths, sensors, threads, teller);
         std::vector<Checked> points;
-        for (std::size_t k = 0; k < checks.values.size(); ++k)
-            points.push_back(
-                {result.values[k * step].value, checks.values[k], checks.errors[k], plain.places[k * step].position});
+        for (std::size_t k = 0; k < sensors.size(); ++k)
+            points.push_back({result.values[sensors[k]].value, checks.values[k], checks.errors[k],
+                              plain.places[sensors[k]].position});
         return points;
     };
     const double all_paths = static_cast<double>(result.samples) * static_cast<double>(plain.places.size());
-    const BiasCheck check = check_bias(measure, result.median_relative_error, {all_paths, result.work.rays()});
+    const BiasCheck check = check_bias(checked, result.median_relative_error, {all_paths, result.work.rays()});
     result.bias = check.whole;
     const LocalBias local(check.whole, check.points);
     for (std::size_t i = 0; i < plain.places.size(); ++i)
@@ -277,7 +167,10 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         result.samples = pilot.samples_for(shared, settings.accuracy);
     fixed_rays += rays.next();
     Teller teller(progress, "grid " + grid.name, receivers.size());
-    const Some all = measure_some(task, result.samples, 1, settings.threads, teller);
+    MeasuredSensors all =
+        measure_sensors(task, result.samples, every_of(1, receivers.size()), settings.threads, teller);
+    if (!settings.unbiased && settings.techniques.sensor_sampling)
+        refine_noisy(task, settings.accuracy, result.samples, settings.threads, teller, all);
     result.work = ambient.work();
     result.work.ambient_rays = ambient_rays;
     result.work.fixed_rays = fixed_rays;
@@ -286,7 +179,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
         result.values.push_back(Illuminance{all.values[i]});
         result.standard_errors.push_back(Illuminance{all.errors[i]});
     }
-    result.mean_standard_error = Illuminance{all.mean_error};
+    result.mean_standard_error = Illuminance{all.mean_error()};
     result.median_relative_error = median_relative(all.values, all.errors);
     if (!plain || task.only_direct) {
         Teller check(progress, "check, grid " + grid.name, checked_sensors);
