@@ -118,10 +118,33 @@ struct PartReader {
                 binding = {modifier(binding.inherited), modifier(binding.actual)};
             part.instances.push_back(std::move(instance));
         }
+        check_numbers(part);
         return part;
     }
 
 private:
+    /// Each surface names a shape that is there, each polygon corners that are there.
+    void check_numbers(const Part& part) const
+    {
+        const std::size_t cones = part.cones.size(), spheres = part.spheres.size();
+        const std::size_t counts[] = {part.polygons.size(),
+                                      spheres,
+                                      spheres,
+                                      cones,
+                                      cones,
+                                      cones,
+                                      cones,
+                                      part.rings.size(),
+                                      part.sources.size(),
+                                      part.meshes.size(),
+                                      part.instances.size()};
+        for (const Surface& surface : part.surfaces)
+            if (surface.index >= counts[static_cast<std::size_t>(surface.shape)])
+                refuse(place, "names a shape that it does not have");
+        for (const Polygon& polygon : part.polygons)
+            if (polygon.count > part.points.size() || polygon.first > part.points.size() - polygon.count)
+                refuse(place, "names corners that it does not have");
+    }
     void read_surfaces(Part& part) const
     {
         const auto shapes = in.array<std::uint8_t>();
@@ -145,13 +168,16 @@ private:
     }
 };
 
-std::shared_ptr<const Mesh> read_mesh(ByteReader& in)
+std::shared_ptr<const Mesh> read_mesh(ByteReader& in, const std::string& place)
 {
     auto mesh = std::make_shared<Mesh>();
     mesh->points = in.array<Point>();
     mesh->triangles = in.array<std::uint32_t>();
     mesh->normals = in.array<Direction>();
     mesh->texture = in.array<double>();
+    const auto known = [&](std::uint32_t index) { return index < mesh->points.size(); };
+    if (!std::all_of(mesh->triangles.begin(), mesh->triangles.end(), known))
+        refuse(place, "names corners that it does not have");
     return mesh;
 }
 
@@ -255,7 +281,7 @@ void SceneReader::read_compiled(std::string_view bytes, const std::filesystem::p
     }
     std::vector<std::shared_ptr<const Mesh>> meshes;
     for (auto left = in.value<std::uint64_t>(); left > 0; --left)
-        meshes.push_back(read_mesh(in));
+        meshes.push_back(read_mesh(in, name));
     const PartReader parts{in, modifier, meshes, static_cast<std::uint32_t>(scene_.prototypes.size()), name};
     for (auto left = in.value<std::uint64_t>(); left > 0; --left) {
         scene_.prototypes.push_back(parts.read());

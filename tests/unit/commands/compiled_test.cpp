@@ -1,4 +1,5 @@
 #include "engine/base/errors.h"
+#include "importers/radiance/compiled_bytes.h"
 #include "importers/radiance/compiled_scene.h"
 #include "tests/unit/commands/command_run.h"
 
@@ -122,6 +123,33 @@ TEST(CompiledScenes, AnyDamageIsNamed)
         folder.write("b.oct", damaged);
         EXPECT_THROW(read("b.oct"), InputError) << at;
     }
+}
+
+TEST(CompiledScenes, NumbersThatPointBeyondTheirListsAreRefusedThoughTheChecksumFits)
+{
+    using namespace scene_text;
+    const WorkFolder folder;
+    folder.write("a.rad", "void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n"
+                          "grey sphere s 0 0 4 0 0 1 .2\n");
+    const std::string whole = run("oconv -f a.rad").out;
+    const std::size_t body = whole.find(compiled_mark) + compiled_mark.size();
+    const std::size_t tail = whole.size() - compiled_end.size() - 2 * sizeof(std::uint64_t);
+    int refused = 0;
+    for (std::size_t at = body; at < tail; ++at) {
+        std::string changed = whole;
+        changed[at] = '\x7d';
+        ByteSum sum;
+        sum.add(changed.data() + body, tail - body);
+        const std::uint64_t value = sum.sum();
+        std::memcpy(changed.data() + tail, &value, sizeof value);
+        Report report;
+        try {
+            validate(read_radiance_sources({{"a.oct", changed}}, report).scene);
+        } catch (const InputError& error) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 100);
 }
 
 TEST(CompiledScenes, BadWordsAndScenesLeaveNothingBehind)
