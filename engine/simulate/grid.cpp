@@ -169,9 +169,6 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     Teller teller(progress, "grid " + grid.name, receivers.size());
     MeasuredSensors all =
         measure_sensors(task, result.samples, every_of(1, receivers.size()), settings.threads, teller);
-    const bool plain_values = plain && !task.only_direct;
-    if (!plain_values && settings.techniques.sensor_sampling)
-        refine_noisy(task, settings.accuracy, result.samples, settings.threads, teller, all);
     result.work = ambient.work();
     result.work.ambient_rays = ambient_rays;
     result.work.fixed_rays = fixed_rays;
@@ -182,7 +179,7 @@ GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& s
     }
     result.mean_standard_error = Illuminance{all.mean_error()};
     result.median_relative_error = median_relative(all.values, all.errors);
-    if (!plain_values) {
+    if (!plain || task.only_direct) {
         Teller check(progress, "check, grid " + grid.name, checked_sensors);
         add_bias(result, {parts_->tracer, receivers, mix_bits(settings.seed), nullptr}, settings.threads, check);
     }

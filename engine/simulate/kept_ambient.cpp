@@ -39,7 +39,7 @@ CacheIdentity ambient_identity(const SimulationParts& parts, const AmbientEffort
     identity.add_setting("ambient accuracy", shortest(effort.accuracy));
     identity.add_setting("seed", std::to_string(effort.deep.seed));
     Techniques of_records = techniques;
-    of_records.cache = of_records.deep_field = of_records.image_sampling = of_records.sensor_sampling =
+    of_records.cache = of_records.deep_field = of_records.image_sampling =
         true; // decide who asks for records, not what they hold
     const std::string off = switched_off(of_records, parts.preparation);
     identity.add_setting("techniques switched off", off.empty() ? "none" : off);

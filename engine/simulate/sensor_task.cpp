@@ -10,18 +10,8 @@ namespace {
 
 /// Keeps the random numbers of direct light and of rays apart.
 constexpr std::uint64_t direct_salt = 0x64697265;
-/// And those of sensors that are measured anew.
-constexpr std::uint64_t refined_salt = 0x6d6f7265;
 /// Rays of ambient light to one test of the lamps: their light is found exactly where nothing is half hidden.
 constexpr std::uint32_t rays_a_test = 16;
-
-/// A sensor is noisy whose error is so many times the wanted one; a dark one counts as this share of the mean.
-constexpr double noisy = 2, dark_share = 0.01;
-/// So many times the paths, so often, while each time helps by at least that much (noise alone would fall by half).
-constexpr int more_times = 4, most_rounds = 2;
-constexpr double helped = 0.75;
-/// Paths taken for noisy sensors, as a multiple of those that all were given.
-constexpr double most_extra = 3;
 
 } // namespace
 
@@ -122,33 +112,6 @@ std::vector<std::size_t> every_of(std::size_t step, std::size_t sensors)
     for (std::size_t i = 0; i < sensors; i += step)
         chosen.push_back(i);
     return chosen;
-}
-
-double refine_noisy(SensorTask task, double accuracy, int samples, int threads, Teller& teller, MeasuredSensors& all)
-{
-    double mean = 0, extra = 0;
-    for (const double value : all.values)
-        mean += value / static_cast<double>(all.values.size());
-    const double budget = most_extra * samples * static_cast<double>(all.values.size());
-    const auto excess = [&](std::size_t i) { return all.errors[i] / std::max(all.values[i], dark_share * mean); };
-    std::vector<std::size_t> chosen = all.sensors;
-    for (int round = 0; round < most_rounds && mean > 0; ++round) {
-        samples = std::min(samples * more_times, most_samples);
-        std::erase_if(chosen, [&](std::size_t i) { return !(excess(i) > noisy * accuracy); });
-        std::stable_sort(chosen.begin(), chosen.end(), [&](auto a, auto b) { return excess(a) > excess(b); });
-        chosen.resize(std::min(chosen.size(), static_cast<std::size_t>((budget - extra) / samples)));
-        extra += static_cast<double>(samples) * static_cast<double>(chosen.size());
-        task.seed = mix_bits(task.seed, refined_salt);
-        const MeasuredSensors again = measure_sensors(task, samples, chosen, threads, teller);
-        chosen.clear();
-        for (std::size_t k = 0; k < again.sensors.size(); ++k) {
-            const std::size_t i = again.sensors[k];
-            if (again.errors[k] < helped * all.errors[i])
-                chosen.push_back(i);
-            all.set(i, again.found[k]);
-        }
-    }
-    return extra;
 }
 
 } // namespace lightwell

@@ -44,11 +44,4 @@ MeasuredSensors measure_sensors(const SensorTask& task, int samples, std::vector
 /// Every step-th of so many, from the first.
 std::vector<std::size_t> every_of(std::size_t step, std::size_t sensors);
 
-/// Sensors that err far more than is wanted, in half shadow and in dark corners, are measured anew with more paths;
-/// what chose them is thrown away, which leaves the result unbiased.
-/// @param all  every sensor, by so many samples
-/// @param accuracy  wanted standard error / illuminance
-/// @return  paths taken
-double refine_noisy(SensorTask task, double accuracy, int samples, int threads, Teller& teller, MeasuredSensors& all);
-
 } // namespace lightwell

@@ -31,10 +31,9 @@ inline constexpr int tile_size = 32;
 struct Techniques {
     bool deep_field = true; ///< further bounces from engine/ambient's deep field; else by scattered rays
     bool cache = true; ///< ambient light of the first surface by interpolation, where there are many pixels or sensors
-    bool gradients = true;       ///< of the records
-    bool image_sampling = true;  ///< pixels between others that agree are interpolated; else each has its own paths
-    bool sensor_sampling = true; ///< noisy sensors get more paths; else all the same
-    bool hessian = true;         ///< decides the distance between records; else the harmonic mean distance alone
+    bool gradients = true;      ///< of the records
+    bool image_sampling = true; ///< pixels between others that agree are interpolated; else each has its own paths
+    bool hessian = true;        ///< decides the distance between records; else the harmonic mean distance alone
 };
 
 /// Ambient light kept on disk, for the next view, the next run and other processes at the same time.

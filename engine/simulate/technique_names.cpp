@@ -17,7 +17,6 @@ constexpr TechniqueName names[] = {
     {"gradients", "records are averaged as they are", [](T& t, P&) -> bool& { return t.gradients; }},
     {"hessian", "distance of records by the harmonic mean distance alone", [](T& t, P&) -> bool& { return t.hessian; }},
     {"image", "every pixel has paths of its own", [](T& t, P&) -> bool& { return t.image_sampling; }},
-    {"sensors", "every sensor has as many paths", [](T& t, P&) -> bool& { return t.sensor_sampling; }},
     {"adaptive", "every lamp and sun is tested", [](T&, P& p) -> bool& { return p.direct.adaptive; }},
     {"subdivision", "one shadow ray a source, however near", [](T&, P& p) -> bool& { return p.direct.subdivide; }},
     {"virtual", "light by way of mirrors by scattered rays alone", [](T&, P& p) -> bool& { return p.virtual_sources; }},

@@ -330,37 +330,6 @@ TEST(Without, AmbientLightByScatteredRaysAloneIsNoisierAtTheSameCost)
     EXPECT_GT(rays_for_one_percent(pair.without), 2 * rays_for_one_percent(pair.with));
 }
 
-/// A lamp over black surfaces, behind a fence of ten boards: the sensors in half shadow are noisy, the others exact.
-Scene lamp_behind_a_fence()
-{
-    Scene scene;
-    scene.root.add_polygon(panel(-0.5, -0.5, 0.5, 0.5, 4), lamp_of(scene, 1000), "lamp");
-    const ModifierId black = grey(scene, "black", 0);
-    for (int i = 0; i < 10; ++i)
-        scene.root.add_polygon(level(-2 + 0.4 * i, -3, -1.8 + 0.4 * i, 0, 0.6), black, "board");
-    return scene;
-}
-
-TEST(Without, SensorSamplingTheNoisySensorsCostAllTheOthersAsMuch)
-{
-    Question asked{lamp_behind_a_fence, desks(12, 12, 3, 3, 0), samples(8, 0.002), {}};
-    for (Sensor& sensor : asked.grid.sensors)
-        sensor.position = sensor.position - Vec3{1.5, 1.5, 0};
-    asked.reference = by_many_rays(asked.scene, asked.grid, 1);
-    const Pair pair = compare("sensors", asked);
-    EXPECT_LT(pair.with.rms, 0.7 * pair.without.rms);
-    EXPECT_LT(2 * rays_for_one_percent(pair.with), rays_for_one_percent(pair.without));
-    double with = 0, without = 0;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) { // what is thrown away leaves no bias
-        asked.settings.seed = seed;
-        for (const double value : lux(answer(asked, "")))
-            with += value;
-        for (const double value : asked.reference)
-            without += value;
-    }
-    EXPECT_NEAR(with / without, 1, 0.001);
-}
-
 TEST(Without, ImageSamplingEveryPixelHasPathsOfItsOwn)
 {
     View view;

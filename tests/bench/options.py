@@ -9,7 +9,7 @@ LADDERS = {
     "time": {"": ["--time 0.1s", "--time 0.3s", "--time 1s", "--time 3s", "--time 10s"]},
 }
 # Techniques that can be switched off, one at a time; `--also "--without NAME"` measures a row without one.
-TECHNIQUES = ("ambient", "cache", "gradients", "hessian", "image", "sensors", "adaptive", "subdivision", "virtual", "secondary", "tree", "analytic")
+TECHNIQUES = ("ambient", "cache", "gradients", "hessian", "image", "adaptive", "subdivision", "virtual", "secondary", "tree", "analytic")
 
 
 def lightwell_ladder(kind, row):

@@ -78,7 +78,7 @@ class Wishes(Case):
 
 
 class Without(Case):
-    NAMES = ("ambient", "cache", "gradients", "hessian", "image", "sensors", "adaptive", "subdivision", "virtual", "secondary",
+    NAMES = ("ambient", "cache", "gradients", "hessian", "image", "adaptive", "subdivision", "virtual", "secondary",
              "tree", "analytic")
 
     def test_each_technique_has_a_name_and_an_unknown_one_is_refused_with_the_list(self):
