@@ -29,8 +29,9 @@ std::array<double, replicates> SensorTask::operator()(std::size_t i, int samples
     return found;
 }
 
-SensorTask::Direct SensorTask::direct(std::size_t i, std::uint64_t key, std::uint32_t tests) const
+SensorTask::Direct SensorTask::direct(std::size_t i, std::uint64_t key, std::uint32_t count) const
 {
+    const std::uint32_t tests = std::max(1u, count / rays_a_test);
     Direct sum;
     for (std::uint32_t n = 0; n < tests; ++n) {
         PathRandom random(mix_bits(key, direct_salt), i, n);
@@ -53,7 +54,7 @@ Spectrum SensorTask::by_paths(std::size_t i, int replicate, std::uint64_t key, s
 
 Spectrum SensorTask::by_hemisphere(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
 {
-    const Direct tested = direct(i, key, std::max(1u, count / rays_a_test));
+    const Direct tested = direct(i, key, count);
     Spectrum ambient;
     const Frame frame = frame_about(places[i].normal);
     std::vector<Dependence> dependences;

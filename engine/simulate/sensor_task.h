@@ -24,7 +24,7 @@ private:
         Spectrum irradiance;
         double lamp_share = 0; ///< of the hemisphere, cosine-weighted
     };
-    Direct direct(std::size_t i, std::uint64_t key, std::uint32_t tests) const;
+    Direct direct(std::size_t i, std::uint64_t key, std::uint32_t count) const;
     Spectrum by_paths(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const;
     Spectrum by_hemisphere(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const;
 };

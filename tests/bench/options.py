@@ -3,7 +3,7 @@
 # Lightwell: what follows `--samples`, `--accuracy` or `--quality`, cheapest first.
 LADDERS = {
     "samples": {"": ["--samples 32", "--samples 128", "--samples 512", "--samples 2048"],
-                "d": ["--samples 8", "--samples 16", "--samples 32"]},
+                "d": ["--samples 128", "--samples 256", "--samples 512"]},
     "accuracy": {"": ["--accuracy 10%", "--accuracy 5%", "--accuracy 2%", "--accuracy 1%", "--accuracy 0.5%"]},
     "quality": {"": ["--quality draft", "--quality normal", "--quality fine"]},
     "time": {"": ["--time 0.1s", "--time 0.3s", "--time 1s", "--time 3s", "--time 10s"]},
