@@ -83,13 +83,9 @@ public:
     bool solved() const noexcept { return !ambient_[0].empty(); }
 
 private:
-    struct Start {
-        SurfacePlace place;
-        double weight; ///< of all starts of the site: 1
-    };
     struct RowStarts {
-        std::vector<std::vector<Start>> from; ///< by site
-        std::vector<double> other_share;      ///< of the hemisphere that shows no lamp
+        std::vector<std::vector<SurfacePlace>> from; ///< by site
+        std::vector<double> other_share;             ///< of the hemisphere that shows no lamp
     };
     using RayNumbers = std::vector<std::size_t>; ///< of each site, a replicate
     /// One start for each of a site's rays.
@@ -99,9 +95,9 @@ private:
         std::size_t replicate, count;
     };
     /// @param other_share  of the hemisphere that shows no lamp
-    void trace_row(std::size_t site, const std::vector<Start>& from, const HemisphereRays& rays, double other_share,
-                   const RowRays& which, FixedPoint& system) const;
-    void find_direct(const std::vector<std::vector<Start>>& from, const HemisphereRays& rays,
+    void trace_row(std::size_t site, const std::vector<SurfacePlace>& from, const HemisphereRays& rays,
+                   double other_share, const RowRays& which, FixedPoint& system) const;
+    void find_direct(const std::vector<std::vector<SurfacePlace>>& from, const HemisphereRays& rays,
                      const DeepSettings& settings, std::vector<double>& other_share);
     void find_bright();
     /// Adds a site for each candidate that none covers.
@@ -121,8 +117,9 @@ private:
     RayNumbers shared_out(const DeepSettings& settings) const;
     void count_visits();
     bool covers(const Point& at, const Direction& normal) const noexcept;
-    std::vector<Start> starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
-                              std::uint64_t seed) const;
+    /// Places about a site, as often as it answers for them: means over few of them are right in the mean.
+    std::vector<SurfacePlace> starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
+                                     std::uint64_t seed) const;
 
     std::vector<AmbientSite> sites_;
     std::vector<SurfacePlace> places_;

@@ -20,33 +20,31 @@ constexpr std::uint64_t ray_salt = 0x72617973, second_ray_salt = 0x72617932, dir
 
 } // namespace
 
-std::vector<DeepField::Start> DeepField::starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
-                                                std::uint64_t seed) const
+std::vector<SurfacePlace> DeepField::starts(std::size_t site, const HemisphereRays& rays, std::size_t count,
+                                            std::uint64_t seed) const
 {
+    constexpr std::size_t most_tries =
+        16; // a start: a site between many others has a small share of its own surroundings
     const AmbientSite& s = sites_[site];
-    std::vector<Start> found;
-    double total = 0;
-    for (std::uint32_t n = 0; n < count; ++n) {
+    std::vector<SurfacePlace> found;
+    for (std::uint32_t n = 0; n < most_tries * count && found.size() < count; ++n) {
         PathRandom random(mix_bits(seed, start_salt), site, n);
         SurfacePlace there;
         if (!place_around(s, places_[site], rays, random, there))
             continue;
         Weight around[most_weights];
         const std::size_t sites = weights(there.position, there.normal, around);
+        const double taken = random.one();
         for (std::size_t k = 0; k < sites; ++k)
-            if (around[k].site == site && around[k].weight > 0) {
-                found.push_back({there, around[k].weight});
-                total += around[k].weight;
-            }
+            if (around[k].site == site && taken < around[k].weight)
+                found.push_back(there);
     }
-    for (Start& start : found)
-        start.weight /= total;
     if (found.empty())
-        found.push_back({places_[site], 1});
+        found.push_back(places_[site]);
     return found;
 }
 
-void DeepField::trace_row(std::size_t site, const std::vector<Start>& from, const HemisphereRays& rays,
+void DeepField::trace_row(std::size_t site, const std::vector<SurfacePlace>& from, const HemisphereRays& rays,
                           double other_share, const RowRays& which, FixedPoint& system) const
 {
     std::vector<Dependence>& row = system.rows[site];
@@ -56,11 +54,12 @@ void DeepField::trace_row(std::size_t site, const std::vector<Start>& from, cons
     for (std::uint32_t n = 0; n < which.count; ++n) {
         // Each start gets an equal share of the rays, to one.
         const std::size_t at = n % from.size();
-        const double weight = from[at].weight / static_cast<double>((which.count - at + from.size() - 1) / from.size());
+        const double weight =
+            1 / static_cast<double>(from.size() * ((which.count - at + from.size() - 1) / from.size()));
         PathRandom random(mix_bits(which.seed, which.replicate), site, n);
-        const Direction direction = hemisphere_direction(frame_about(from[at].place.normal), random.pair());
+        const Direction direction = hemisphere_direction(frame_about(from[at].normal), random.pair());
         arrived.clear();
-        const Arrival arrival = rays.arrive(from[at].place, direction, random, arrived);
+        const Arrival arrival = rays.arrive(from[at], direction, random, arrived);
         known += arrival.irradiance * weight;
         other += arrival.met_lamp ? 0 : weight;
         for (const Dependence& d : arrived)
@@ -74,7 +73,7 @@ void DeepField::trace_row(std::size_t site, const std::vector<Start>& from, cons
     merge_dependences(row);
 }
 
-void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const HemisphereRays& rays,
+void DeepField::find_direct(const std::vector<std::vector<SurfacePlace>>& from, const HemisphereRays& rays,
                             const DeepSettings& settings, std::vector<double>& other_share)
 {
     const std::size_t count = sites_.size();
@@ -86,14 +85,15 @@ void DeepField::find_direct(const std::vector<std::vector<Start>>& from, const H
     parallel_for(count, settings.threads, [&](std::size_t i) {
         settings.check();
         double squares = 0;
+        const double weight = 1 / static_cast<double>(from[i].size());
         for (std::uint32_t k = 0; k < from[i].size(); ++k) {
             PathRandom random(mix_bits(settings.seed, direct_salt), i, k);
-            const DirectIrradiance direct = rays.direct(from[i][k].place, random);
+            const DirectIrradiance direct = rays.direct(from[i][k], random);
             brightest_[i] = std::max(brightest_[i], photopic(direct.lamps));
-            direct_[i] += direct.lamps * from[i][k].weight;
-            squares += photopic(direct.lamps) * photopic(direct.lamps) * from[i][k].weight;
-            lit_W_per_m2_[i] += photopic(direct.lamps + direct.suns) * from[i][k].weight;
-            other_share[i] -= std::min(1.0, direct.lamp_share) * from[i][k].weight;
+            direct_[i] += direct.lamps * weight;
+            squares += photopic(direct.lamps) * photopic(direct.lamps) * weight;
+            lit_W_per_m2_[i] += photopic(direct.lamps + direct.suns) * weight;
+            other_share[i] -= std::min(1.0, direct.lamp_share) * weight;
         }
         const double mean = photopic(direct_[i]);
         unevenness[i] = std::sqrt(std::max(0.0, squares - mean * mean));
@@ -112,7 +112,7 @@ DeepField::RowStarts DeepField::find_starts(const HemisphereRays& rays, const De
                                             const RayNumbers& each)
 {
     constexpr std::size_t most_starts = 64; // each with a look around and shadow rays of its own
-    RowStarts rows{std::vector<std::vector<Start>>(sites_.size()), std::vector<double>(sites_.size(), 1.0)};
+    RowStarts rows{std::vector<std::vector<SurfacePlace>>(sites_.size()), std::vector<double>(sites_.size(), 1.0)};
     parallel_for(sites_.size(), settings.threads, [&](std::size_t i) {
         settings.check();
         rows.from[i] = starts(i, rays, std::min(each[i], most_starts), settings.seed);

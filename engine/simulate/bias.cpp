@@ -10,7 +10,7 @@ namespace {
 /// Differences are relative to the value, and to no less than this share of the mean.
 constexpr double least_level = 0.01;
 /// Plain paths of each checked value to begin with.
-constexpr int first_paths = 16 * replicates;
+constexpr int first_paths = 4 * replicates;
 /// The most paths that the check takes, as a share of all: each is longer than those of the values.
 constexpr double check_share = 1.0 / 16;
 /// Of a plain path, shadow rays included, in a room: few sensors may rest on much more ambient light than paths.
