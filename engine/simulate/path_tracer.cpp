@@ -22,6 +22,15 @@ DirectSettings at_sites(DirectSettings settings)
     return settings;
 }
 
+/// Numbers that someone reads: of the lamps below the threshold one is tested, since what all of them are taken to give
+/// would agree with itself however wrong it is. Where interreflection is limited, as in Radiance, they follow its rule.
+DirectSettings for_sensors(const DirectSettings& wanted, bool limited)
+{
+    DirectSettings settings = wanted;
+    settings.sampled_remainder = settings.sampled_remainder || !limited;
+    return settings;
+}
+
 /// Several paths share a pixel: each tests the lamps that give most, with one shadow ray, and one of the rest.
 DirectSettings for_eyes(const DirectSettings& wanted)
 {
@@ -72,6 +81,7 @@ PathTracer::PathTracer(const Scene& scene, const RayQueries& rays, const SourceL
                        const DirectSettings& settings)
     : scene_(scene), rays_(rays), sources_(sources), virtual_sources_(virtual_sources), ambient_(ambient),
       direct_(sources, rays, settings), mirrored_(virtual_sources, sources, rays),
+      sensor_direct_(sources, rays, for_sensors(settings, ambient.limit.has_value())),
       eye_direct_(sources, rays, for_eyes(settings)), site_direct_(sources, rays, at_sites(settings)),
       quick_direct_(sources, rays, behind_scattering(settings)), varied_(scene),
       white_(Plastic{Spectrum::grey(1), 0, 0})

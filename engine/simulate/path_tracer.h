@@ -103,6 +103,7 @@ private:
     AmbientLight ambient_;
     DirectLight direct_;
     MirroredLight mirrored_;
+    DirectLight sensor_direct_;              ///< at sensors whose lamps are tested apart from other light
     DirectLight eye_direct_;                 ///< at what the eye sees
     DirectLight site_direct_;                ///< at the sites of the deep field
     DirectLight quick_direct_;               ///< behind a scattering

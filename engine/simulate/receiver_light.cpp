@@ -83,7 +83,7 @@ DirectIrradiance PathTracer::direct(const SurfacePlace& receiver, PathRandom& ra
 
 DirectIrradiance PathTracer::sensor_direct(const SurfacePlace& receiver, PathRandom& random) const
 {
-    return direct_by(direct_, receiver, random);
+    return direct_by(sensor_direct_, receiver, random);
 }
 
 } // namespace lightwell

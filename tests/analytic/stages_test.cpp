@@ -93,6 +93,27 @@ TEST(Stages, WhereLightEndsOnBlackSurfacesOnlyShadowRaysAreTraced)
     EXPECT_GT(found.standard_errors[0].value, 0);
 }
 
+/// One bright lamp in sight, sixty dim ones behind a screen that together would give a twentieth: they must not be
+/// taken to be as visible as the one that was tested.
+TEST(Stages, DimLampsThatAScreenHidesAddNothingWhereOnlyShadowRaysAreTraced)
+{
+    Scene scene;
+    const ModifierId bright = scene.add_material("bright", Light{Spectrum::grey(1000)});
+    const ModifierId dim = scene.add_material("dim", Light{Spectrum::grey(1)});
+    constexpr double radius = 0.1, height = 2;
+    scene.root.add_ring({{0, 0, height}, {0, 0, -1}, 0, radius}, bright, "lamp");
+    for (int i = 0; i < 60; ++i)
+        scene.root.add_ring({{4, 0.25 * (i - 30), height}, {-0.8, 0, -0.6}, 0, radius}, dim, "row");
+    const ModifierId black = scene.add_material("black", Plastic{});
+    scene.root.add_polygon({{2, -20, -1}, {2, 20, -1}, {2, 20, 3}, {2, -20, 3}}, black, "screen");
+    SensorGrid grid;
+    grid.sensors = {{{0, 0, 0}, {0, 0, 1}}};
+    const GridResult found = Simulation(std::move(scene)).illuminance(grid, {});
+    EXPECT_EQ(found.work.ambient_rays.total(), 0);
+    const double expected = pi * 1000 * lumens_per_watt * radius * radius / (radius * radius + height * height);
+    EXPECT_NEAR(found.values[0].value, expected, 1e-9 * expected);
+}
+
 TEST(Stages, WhatThePlanSwitchesOffIsNotBuilt)
 {
     const auto mirrored = [] {

@@ -20,12 +20,12 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 from intervals import Quantity, half_width, least_hits
 from program import illuminance
 from text import write_points
-from trust_scenes import SCENES
+from trust_scenes import BIASED, SCENES
 
 # Samples of a run: where a replicate's mean is nearly normal. Rare bright paths need more of them.
-SAMPLES = {"easy": 128, "bright_walls": 512, "small_source": 16384, "glossy": 2048, "sun_opening": 16384}
+SAMPLES = {"easy": 128, "bright_walls": 512, "bright_slit": 512, "small_source": 16384, "glossy": 2048, "sun_opening": 16384}
 # Samples of the truth, by plain path tracing, to those of a run: its error must be a fraction of a run's.
-TRUTH_FACTOR, TRUTH_FACTORS = 64, {"bright_walls": 1024}
+TRUTH_FACTOR, TRUTH_FACTORS = 64, {"bright_walls": 1024, "bright_slit": 1024}
 TRUTH_SEED = 990001
 MEAN_ERROR = "mean_error_lx"
 UNSTATED_MEAN = "mean, if independent"  # shown, never failed
@@ -52,7 +52,7 @@ def measure(scene_file, points_file, folder, seed, options):
 
 def coverage(name, runs, effort, folder, options):
     """@return  a summary for each quantity of the scene"""
-    text, points = SCENES[name]()
+    text, points = (SCENES | BIASED)[name]()
     scene_file, points_file = folder / f"{name}.rad", folder / f"{name}.pts"
     scene_file.write_text(text)
     write_points(points_file, points)
@@ -79,7 +79,7 @@ def table_line(row):
 
 def words():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="*", choices=[*SCENES, []], default=[])
+    parser.add_argument("scenes", nargs="*", choices=[*SCENES, *BIASED, []], default=[])
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--effort", type=float, default=1.0, help="factor of the samples of each run")
     parser.add_argument("--false-alarm", type=float, default=0.01, help="of one count, decides the least hits")
