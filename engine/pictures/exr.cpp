@@ -13,12 +13,12 @@ constexpr int final_tile_size = 64;
 
 } // namespace
 
-void write_exr(const Picture& picture, const std::filesystem::path& file)
+void write_exr(const Picture& picture, const std::filesystem::path& file, ExrUse use)
 {
     check_picture(file.string(), picture);
     check_exr_layout(file.string(), picture, final_tile_size);
     write_atomically(file, [&](const std::filesystem::path& temporary) {
-        ExrWriter writer(temporary, picture, final_tile_size, false);
+        ExrWriter writer(temporary, picture, final_tile_size, false, use);
         for (int y = 0; y < picture.height; y += final_tile_size)
             for (int x = 0; x < picture.width; x += final_tile_size)
                 writer.write_tile(x, y, picture, 0, 0);

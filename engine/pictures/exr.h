@@ -8,10 +8,16 @@
 
 namespace lightwell {
 
-/// Tiled FLOAT channels, ZIP; header entries as text attributes, chromaticities and whiteLuminance of the engine. A
-/// part of a larger picture has that one as display window.
+/// What becomes of a written file.
+enum class ExrUse {
+    keep,     ///< packed (ZIP) and forced onto the disk
+    hand_over ///< read at once by another program, and then of no use: neither, since both take longer than the reading
+};
+
+/// Tiled FLOAT channels; header entries as text attributes, chromaticities and whiteLuminance of the engine. A part of
+/// a larger picture has that one as display window.
 /// @throws InputError when the file cannot be written; the final name never holds half a file
-void write_exr(const Picture& picture, const std::filesystem::path& file);
+void write_exr(const Picture& picture, const std::filesystem::path& file, ExrUse use = ExrUse::keep);
 /// @throws InputError: missing, truncated, not an OpenEXR file, no float or half channels, absurd size
 Picture read_exr(const std::filesystem::path& file);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/pictures/picture.h"
+#include "engine/pictures/exr.h"
 
 #include <filesystem>
 #include <memory>
@@ -14,15 +14,16 @@ namespace lightwell {
 /// @throws InputError naming the entry
 void check_exr_layout(const std::string& place, const Picture& layout, int tile_size);
 
-/// Writes an OpenEXR file tile by tile: FLOAT, ZIP. What a call has written is with the operating system when the call
-/// returns, so that a killed program leaves a file with all tiles up to the last one; a failure of power loses those of
-/// the last second or so.
+/// Writes an OpenEXR file tile by tile: FLOAT, packed as its use is. What a call has written is with the operating
+/// system when the call returns, so that a killed program leaves a file with all tiles up to the last one; a failure of
+/// power loses those of the last second or so.
 class ExrWriter {
 public:
     /// @param layout     size, channel names and header, checked by check_exr_layout()
     /// @param any_order  tiles come in any order; otherwise row by row from the top
     /// @throws std::exception when the file cannot be written
-    ExrWriter(const std::filesystem::path& file, const Picture& layout, int tile_size, bool any_order);
+    ExrWriter(const std::filesystem::path& file, const Picture& layout, int tile_size, bool any_order,
+              ExrUse use = ExrUse::keep);
     /// Ends the file even when tiles are missing; errors are lost, so call close() where they matter.
     ~ExrWriter();
     ExrWriter(const ExrWriter&) = delete;

@@ -29,8 +29,9 @@ namespace {
 /// remembers errors, which OpenEXR forgets when it closes a file.
 class FileStream : public Imf::OStream {
 public:
-    explicit FileStream(const std::filesystem::path& file)
-        : OStream(file.c_str()), descriptor_(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+    explicit FileStream(const std::filesystem::path& file, ExrUse use)
+        : OStream(file.c_str()), use_(use),
+          descriptor_(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
     {
         if (descriptor_ < 0)
             throw std::system_error(errno, std::generic_category());
@@ -73,7 +74,7 @@ public:
     {
         constexpr std::chrono::seconds between{1};
         const auto now = std::chrono::steady_clock::now();
-        if (now - synced_ < between)
+        if (use_ == ExrUse::hand_over || now - synced_ < between)
             return;
         fdatasync(descriptor_); // what fails here shows again at finish()
         synced_ = now;
@@ -81,7 +82,8 @@ public:
     void finish()
     {
         flush();
-        if (error_ == 0 && fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) // not on every file system
+        if (error_ == 0 && use_ == ExrUse::keep && fsync(descriptor_) != 0 && errno != EINVAL &&
+            errno != EROFS) // not on every file system
             error_ = errno;
         if (error_ == 0 && ::close(std::exchange(descriptor_, -1)) != 0)
             error_ = errno;
@@ -90,6 +92,7 @@ public:
     }
 
 private:
+    ExrUse use_;
     int descriptor_;
     int error_ = 0;
     std::uint64_t start_ = 0; ///< where `pending_` goes
@@ -168,7 +171,7 @@ void check_place(const Picture& layout, const std::string& place)
         throw InputError{place, "is part of a whole of " + std::to_string(within.height) + " rows"};
 }
 
-Imf::Header header_of(const Picture& layout, int tile_size, bool any_order, const std::string& place)
+Imf::Header header_of(const Picture& layout, int tile_size, bool any_order, ExrUse use, const std::string& place)
 {
     Imf::Header header(layout.width, layout.height);
     if (const Picture::Place& within = layout.place; within.width > 0) {
@@ -177,7 +180,7 @@ Imf::Header header_of(const Picture& layout, int tile_size, bool any_order, cons
         header.dataWindow() =
             Imath::Box2i({within.x, within.y}, {within.x + layout.width - 1, within.y + layout.height - 1});
     }
-    header.compression() = Imf::ZIP_COMPRESSION;
+    header.compression() = use == ExrUse::keep ? Imf::ZIP_COMPRESSION : Imf::NO_COMPRESSION;
     header.lineOrder() = any_order ? Imf::RANDOM_Y : Imf::INCREASING_Y;
     const auto side = static_cast<unsigned>(tile_size);
     header.setTileDescription(Imf::TileDescription(side, side, Imf::ONE_LEVEL));
@@ -204,8 +207,8 @@ Imf::Header header_of(const Picture& layout, int tile_size, bool any_order, cons
 } // namespace
 
 struct ExrWriter::State {
-    State(const std::filesystem::path& file, const Imf::Header& header)
-        : stream(file), output(std::in_place, stream, header, 0)
+    State(const std::filesystem::path& file, const Imf::Header& header, ExrUse use)
+        : stream(file, use), output(std::in_place, stream, header, 0)
     {
         stream.flush();
     }
@@ -220,12 +223,13 @@ void check_exr_layout(const std::string& place, const Picture& layout, int tile_
         throw InputError{place, "tile size is " + std::to_string(tile_size) + ", expected 1 to 4096 pixels"};
     if (layout.channels.empty())
         throw InputError{place, "picture to be written has no channel", "add at least one"};
-    header_of(layout, tile_size, false, place);
+    header_of(layout, tile_size, false, ExrUse::keep, place);
 }
 
-ExrWriter::ExrWriter(const std::filesystem::path& file, const Picture& layout, int tile_size, bool any_order)
+ExrWriter::ExrWriter(const std::filesystem::path& file, const Picture& layout, int tile_size, bool any_order,
+                     ExrUse use)
 {
-    state_ = std::make_unique<State>(file, header_of(layout, tile_size, any_order, file.string()));
+    state_ = std::make_unique<State>(file, header_of(layout, tile_size, any_order, use, file.string()), use);
 }
 
 ExrWriter::~ExrWriter() = default;

@@ -102,7 +102,7 @@ class LightwellEngine(bpy.types.RenderEngine):
             self.report({"INFO"}, f"Lightwell: {len(notes)} notes on the scene, in the console: {notes[0]}")
 
     def _collect(self, client, request, layer, size):
-        for event in client.events(client.send("render", **request), self.test_break):
+        for event in client.events(client.send("render", **request), self.test_break, leave=True):
             kind = event["event"]
             if kind == "progress":
                 self.update_progress(min(max(float(event.get("fraction", 0)), 0), 1))
@@ -119,20 +119,44 @@ class LightwellEngine(bpy.types.RenderEngine):
             elif kind == "error":
                 raise session.EngineError(sentence_of(event))
 
+    def _check(self):
+        """@throws Stopped"""
+        if self.test_break():
+            raise Stopped
+
     def _show(self, file, layer, size):
-        """Puts a picture file into the render result; an exception between begin and end would end Blender."""
+        """Puts a picture file into the render result, pass by pass: Blender's own reader takes a second for a large one
+        and cannot be stopped. An exception between begin and end would end Blender.
+
+        @throws Stopped
+        """
         problem = exr.check_for_layer(file, layer.name, size)
         if problem:
             raise ValueError(problem)
         for name, channels, _ in PASSES:
             self.add_pass(name, len(channels), channels, layer=layer.name)
-        result = self.begin_result(0, 0, *size)
+        _, picture = exr.read(file, check=self._check)
+        result, whole = self.begin_result(0, 0, *size), False
         try:
-            result.load_from_file(str(file))
-        except Exception:
-            self.end_result(result, cancel=True)
-            raise
-        self.end_result(result)
+            for render_pass in next(l for l in result.layers if l.name == layer.name).passes:
+                self._check()
+                _fill(render_pass, [picture.get(f"{layer.name}.{render_pass.name}.{c}") for c in render_pass.channel_id])
+            self._check()
+            whole = True
+        finally:
+            self.end_result(result, cancel=not whole)
+
+
+def _fill(render_pass, channels):
+    """Rows of a pass come from below; one that the picture does not have stays black."""
+    if any(channel is None for channel in channels):
+        return
+    height, width = channels[0].shape
+    pixels = np.empty((height, width, len(channels)), dtype=np.float32)
+    for i, channel in enumerate(channels):
+        pixels[:, :, i] = channel[::-1]
+    # Numbers of several channels are wanted in two dimensions, single ones in one.
+    render_pass.rect.foreach_set(pixels.reshape(-1, len(channels)) if len(channels) > 1 else pixels.reshape(-1))
 
 
 def _text(note):

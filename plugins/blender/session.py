@@ -54,8 +54,8 @@ class Session:
             self.close()
             self.client, self._loaded = Client(engine_path()), False
         if self._loaded:
-            return self.client.ask("edit", stop)
-        answer = self.client.ask("load", stop, scene=str(scene_file))
+            return self.client.ask("edit", stop, leave=True)
+        answer = self.client.ask("load", stop, leave=True, scene=str(scene_file))
         self._loaded = True
         return answer
 

@@ -30,6 +30,7 @@ class Client:
     def __init__(self, path, seconds=SECONDS_TO_GREET):
         self.path, self._queue, self._number = path, queue.Queue(), 0
         self._waiting, self._lock = {}, threading.Lock()
+        self._left = {}  # requests that nobody waits for any more: when they were told to stop
         self._complaints = collections.deque(maxlen=_LINES_OF_COMPLAINT)
         self.listener = None  # called, without arguments, in the reading thread when something has come
         try:
@@ -95,9 +96,11 @@ class Client:
             except queue.Empty:
                 return None
 
-    def events(self, number, stop=lambda: False, poll=0.02):
+    def events(self, number, stop=lambda: False, poll=0.02, leave=False):
         """All events of a request, up to the last one; `stop()` true cancels it once.
 
+        leave  whether a cancelled request is left at once, with `cancelled` as its last event: the engine's own last
+               word is heard with later requests
         @throws EngineError when the engine is gone, or goes on for SECONDS_TO_STOP after it was told to stop
         """
         stopping = None
@@ -105,21 +108,26 @@ class Client:
             if stopping is None and stop():
                 self.cancel(number)
                 stopping = time.monotonic()
+                if leave:
+                    events = self._waiting.pop(number)
+                    if not (events and events[-1]["event"] in FINAL):
+                        self._left[number] = stopping
+                    yield {"event": "cancelled", "id": number}
+                    return
             event = self.next_event(number, poll)
             if event is not None:
                 yield event
                 if event["event"] in FINAL:
                     return
-            elif stopping is not None and time.monotonic() - stopping > SECONDS_TO_STOP:
-                self.close()
-                raise EngineError(f"the engine did not stop within {SECONDS_TO_STOP:g} s and was ended")
+            else:
+                self._end_if_deaf([*self._left.values(), *([stopping] if stopping is not None else [])])
 
-    def ask(self, do, stop=lambda: False, **fields):
+    def ask(self, do, stop=lambda: False, leave=False, **fields):
         """The result of a request that is waited for.
 
         @throws EngineError with the engine's sentence
         """
-        for event in self.events(self.send(do, **fields), stop):
+        for event in self.events(self.send(do, **fields), stop, leave=leave):
             pass
         if event["event"] == "error":
             raise EngineError(sentence_of(event))
@@ -184,6 +192,12 @@ class Client:
         except ValueError:
             pass
 
+    def _end_if_deaf(self, told):
+        """`told`: when requests that have not ended were told to stop."""
+        if told and time.monotonic() - min(told) > SECONDS_TO_STOP:
+            self.close()
+            raise EngineError(f"the engine did not stop within {SECONDS_TO_STOP:g} s and was ended")
+
     def _sort(self):
         while True:
             try:
@@ -198,6 +212,8 @@ class Client:
         line, arrived = entry
         try:
             event = json.loads(line)
+            if event.get("event") in FINAL:
+                self._left.pop(event.get("id"), None)
             events = self._waiting.get(event.get("id"))
             if events is not None and isinstance(event.get("event"), str):
                 events.append(dict(event, arrived=arrived))

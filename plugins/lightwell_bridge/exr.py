@@ -1,5 +1,6 @@
 """OpenEXR pictures as numpy arrays: what the engine writes (scan lines or tiles, uncompressed or ZIP), and plain files."""
 
+import os
 import struct
 import zlib
 
@@ -11,6 +12,8 @@ _UNREADABLE = 0x800 | 0x1000  # deep data, several parts
 _TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 _LINES = {0: 1, 2: 1, 3: 16}  # scan lines of a block, by compression: none, ZIPS, ZIP
 _MOST_PIXELS = 1 << 28
+# What is read between two looks at the caller's check.
+_CHUNK = 1 << 22
 
 
 class Header:
@@ -34,14 +37,29 @@ class Header:
 def read_header(path):
     """@throws ValueError that names the file and what is wrong with it"""
     with open(path, "rb") as file:
-        return _named(path, lambda: _parse_header(file.read(1 << 20)))
+        data = file.read(1 << 20)
+    return _named(path, lambda: _parse_header(data))
 
 
-def read(path, wanted=None):
-    """(header, {channel: array [row][column], float32, row 0 at the top}); `wanted`: only these channels."""
-    with open(path, "rb") as file:
-        data = file.read()
-    return _named(path, lambda: _read(data, wanted))
+def read(path, wanted=None, check=lambda: None):
+    """(header, {channel: array [row][column], float32, row 0 at the top}); `wanted`: only these channels.
+
+    check  called every few milliseconds; what it raises ends the reading
+    """
+    data = _bytes_of(path, check)
+    return _named(path, lambda: _read(data, wanted, check))
+
+
+def _bytes_of(path, check):
+    with open(path, "rb", buffering=0) as file:
+        data, at = bytearray(os.fstat(file.fileno()).st_size), 0
+        while at < len(data):
+            check()
+            count = file.readinto(memoryview(data)[at:at + _CHUNK])
+            if not count:
+                break
+            at += count
+    return memoryview(data)[:at]
 
 
 def _named(path, work):
@@ -57,6 +75,7 @@ def _parse_header(data):
         raise ValueError("it does not begin as one")
     if version & _UNREADABLE:
         raise ValueError("deep data or several parts are not read here")
+    data = bytes(data[:1 << 20])  # a header is short
     at, attributes = 8, {}
     while data[at] != 0:
         end = data.index(b"\0", at)
@@ -79,14 +98,18 @@ def _channel_types(data):
     return types
 
 
-def _read(data, wanted):
+def _read(data, wanted, check):
     header = _parse_header(data)
     if header.compression not in _LINES:
         raise ValueError(f"compression {header.compression} is not read here (none, ZIPS or ZIP)")
     names = header.channels if wanted is None else [n for n in header.channels if n in set(wanted)]
     width, height = header.size
-    picture = {name: np.full((height, width), np.nan, dtype=np.float32) for name in names}
+    picture = {}
+    for name in names:
+        check()
+        picture[name] = np.full((height, width), np.nan, dtype=np.float32)
     for x, y, across, down, block in _blocks(data, header):
+        check()
         _spread(header, picture, x, y, across, down, block)
     return header, picture
 
@@ -122,6 +145,13 @@ def _spread(header, picture, x, y, across, down, block):
         block = _unzip(block, wanted)
     if len(block) != wanted:
         raise ValueError(f"a block has {len(block)} bytes, expected {wanted}")
+    kinds = set(header.types.values())
+    if len(kinds) == 1:  # the engine's own
+        rows = np.frombuffer(block, dtype=kinds.pop()).reshape(down, len(header.types), across)
+        for i, name in enumerate(header.types):
+            if name in picture:
+                picture[name][y:y + down, x:x + across] = rows[:, i]
+        return
     at = 0
     for row in range(y, y + down):
         for name, kind in header.types.items():

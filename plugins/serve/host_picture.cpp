@@ -62,16 +62,18 @@ Picture host_picture(const Picture& picture, const std::string& layer, const std
     host.header["units"] = units;
     host.header["chromaticities"] = rec709_text;
     const auto& from = picture.channels;
+    const std::vector<float>&own_red = from.at("R"), &own_green = from.at("G"), &own_blue = from.at("B"),
+          &distance = from.at("Z");
     const auto channel = [&](const char* name) -> std::vector<float>& { return host.add_channel(layer + "." + name); };
     auto &red = channel("Combined.R"), &green = channel("Combined.G"), &blue = channel("Combined.B");
     auto &luminance = channel("Luminance.X"), &depth = channel("Depth.Z");
     for (std::size_t i = 0; i < red.size(); ++i) {
-        const Spectrum own{from.at("R")[i], from.at("G")[i], from.at("B")[i]}, colour = to_rec709(own);
+        const Spectrum own{own_red[i], own_green[i], own_blue[i]}, colour = to_rec709(own);
         red[i] = static_cast<float>(colour.r);
         green[i] = static_cast<float>(colour.g);
         blue[i] = static_cast<float>(colour.b);
         luminance[i] = static_cast<float>(luminance_of(own).value);
-        const float metres = from.at("Z")[i];
+        const float metres = distance[i];
         depth[i] = std::isfinite(metres) ? metres : far_away_m;
     }
     channel("Combined.A").assign(red.size(), 1);

@@ -102,7 +102,10 @@ void Session::write_picture(const PictureJob& job, const std::optional<HostLayer
     picture.header = picture_header(*loaded_->simulation, job);
     picture.header["samples"] = std::to_string(result.samples);
     picture.header["median_relative_error"] = shortest(result.median_relative_error);
-    write_exr(layer ? host_picture(picture, layer->name, layer->indices) : picture, job.file);
+    if (layer)
+        write_exr(host_picture(picture, layer->name, layer->indices), job.file, ExrUse::hand_over);
+    else
+        write_exr(picture, job.file);
 }
 
 PictureResult Session::render_progressively(PictureJob& job, const std::optional<HostLayer>& layer, Told& told) const

@@ -116,6 +116,7 @@ Session::Kept Session::read_scene(Told& told)
     Scene scene = read_files(fresh);
     told.check();
     validate(scene);
+    told.check();
     fresh.views = scene.views;
     fresh.grids = scene.grids;
     Kept kept{meshes_.counts().kept, meshes_.counts().read, same_light(scene, fresh)};

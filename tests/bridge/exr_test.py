@@ -41,6 +41,21 @@ class Exr(unittest.TestCase):
         for channel, value in (("R", 1), ("G", 2), ("B", 3)):
             np.testing.assert_allclose(picture[channel], value, rtol=1e-6)
 
+    def test_reading_ends_where_its_check_says_so(self):
+        file = self.path / "large.exr"
+        file.write_bytes(exr.to_bytes({name: np.ones((300, 400)) for name in "RGBA"}))
+        calls = []
+
+        def check():
+            calls.append(None)
+            if len(calls) == 100:
+                raise KeyboardInterrupt
+        with self.assertRaises(KeyboardInterrupt):
+            exr.read(file, check=check)
+        calls.clear()
+        exr.read(file, check=lambda: calls.append(None))
+        self.assertGreater(len(calls), 300)  # every line of the picture
+
     def test_damaged_files_give_a_sentence(self):
         whole = exr.to_bytes({"R": np.ones((4, 4))})
         file = self.path / "bad.exr"

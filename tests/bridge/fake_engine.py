@@ -3,7 +3,8 @@
 
 FAKE: empty (well), old (protocol 0), mute (no greeting), chatter (no JSON), dies (at load), kill (in a render), hangs
 (in a render, deaf to cancel), error (render names an object), full (render says the disk is full), black (a picture with
-wrong channels), small (a picture of the wrong size), slow (a render of a minute that can be stopped)
+wrong channels), small (a picture of the wrong size), slow (a render of a minute that can be stopped), pictures (a new
+picture with all passes as soon as the host has had time to take the last one, for a minute)
 """
 
 import json
@@ -34,8 +35,29 @@ def picture(request, names="{layer}.Combined.{c}", shrink=0):
     pathlib.Path(request["file"]).write_bytes(exr.to_bytes(channels))
 
 
+PASSES = ("Illuminance.X", "Luminance.X", "Error.X", "ObjectLayer.X", "Depth.Z", "Normal.X", "Normal.Y", "Normal.Z")
+
+
+def pictures(request):
+    """So that a host that is stopped at any moment is most probably taking a picture over."""
+    import numpy as np
+    from lightwell_bridge import exr
+    number, (width, height) = request["id"], request["size"]
+    values = np.random.default_rng(1).random((height, width))
+    names = [f"Combined.{c}" for c in "RGBA"] + list(PASSES)
+    pathlib.Path(request["file"]).write_bytes(exr.to_bytes({f"{request['layer']}.{name}": values for name in names}))
+    for _ in range(200):
+        if number in stopped:
+            return say(event="cancelled", id=number)
+        say(event="partial", id=number, file=request["file"], samples=8, error=0.1)
+        time.sleep(0.3)
+    say(event="result", id=number, kind="picture", file=request["file"], error=0.05, seconds=60, notes=[])
+
+
 def render(request):
     number = request["id"]
+    if FAKE == "pictures":
+        return pictures(request)
     if FAKE == "kill":
         os.kill(os.getpid(), signal.SIGKILL)
     if FAKE == "error":
