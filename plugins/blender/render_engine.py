@@ -1,5 +1,6 @@
 """The render engine: final pictures with their passes, and the viewport."""
 
+import time
 import traceback
 
 import bpy
@@ -14,6 +15,8 @@ from .viewport import Viewport
 # Passes beside Combined: name, channels, kind for the compositor.
 PASSES = (("Illuminance", "X", "VALUE"), ("Luminance", "X", "VALUE"), ("Error", "X", "VALUE"),
           ("ObjectLayer", "X", "VALUE"))
+# Each word on the progress makes Blender draw, and keys wait for that.
+SECONDS_BETWEEN_WORDS = 0.5
 _BUILT_IN = (("Depth", "Z", "VALUE", "use_pass_z"), ("Normal", "XYZ", "VECTOR", "use_pass_normal"))
 
 
@@ -102,13 +105,13 @@ class LightwellEngine(bpy.types.RenderEngine):
             self.report({"INFO"}, f"Lightwell: {len(notes)} notes on the scene, in the console: {notes[0]}")
 
     def _collect(self, client, request, layer, size):
+        told = 0
         for event in client.events(client.send("render", **request), self.test_break, leave=True):
             kind = event["event"]
             if kind == "progress":
-                self.update_progress(min(max(float(event.get("fraction", 0)), 0), 1))
-                left = event.get("seconds_left")
-                self.update_stats("Lightwell", str(event.get("phase", "")) +
-                                  (f", {left:.0f} s left" if isinstance(left, (int, float)) else ""))
+                if time.monotonic() - told >= SECONDS_BETWEEN_WORDS:
+                    told = time.monotonic()
+                    self._tell_progress(event)
             elif kind == "partial":
                 self._show(event["file"], layer, size)
             elif kind == "result":
@@ -118,6 +121,12 @@ class LightwellEngine(bpy.types.RenderEngine):
                     self.update_stats("Lightwell", f"median standard error {event['error']:.1%}")
             elif kind == "error":
                 raise session.EngineError(sentence_of(event))
+
+    def _tell_progress(self, event):
+        self.update_progress(min(max(float(event.get("fraction", 0)), 0), 1))
+        left = event.get("seconds_left")
+        self.update_stats("Lightwell", str(event.get("phase", "")) +
+                          (f", {left:.0f} s left" if isinstance(left, (int, float)) else ""))
 
     def _check(self):
         """@throws Stopped"""

@@ -21,6 +21,8 @@ from .engine import SECONDS_TO_GREET, EngineError, check_hello
 FINAL = ("result", "error", "cancelled")
 # An engine that was asked to stop and does not is ended.
 SECONDS_TO_STOP = 2.0
+# The same when nobody waits for the end of what was stopped but a later request.
+SECONDS_LEFT_ALONE = 10.0
 _LINES_OF_COMPLAINT = 20
 
 
@@ -101,7 +103,8 @@ class Client:
 
         leave  whether a cancelled request is left at once, with `cancelled` as its last event: the engine's own last
                word is heard with later requests
-        @throws EngineError when the engine is gone, or goes on for SECONDS_TO_STOP after it was told to stop
+        @throws EngineError when the engine is gone, or goes on for SECONDS_TO_STOP after it was told to stop,
+                SECONDS_LEFT_ALONE after a request was left
         """
         stopping = None
         while True:
@@ -120,7 +123,10 @@ class Client:
                 if event["event"] in FINAL:
                     return
             else:
-                self._end_if_deaf([*self._left.values(), *([stopping] if stopping is not None else [])])
+                if stopping is not None:
+                    self._end_if_deaf(stopping, SECONDS_TO_STOP)
+                if self._left:
+                    self._end_if_deaf(min(self._left.values()), SECONDS_LEFT_ALONE)
 
     def ask(self, do, stop=lambda: False, leave=False, **fields):
         """The result of a request that is waited for.
@@ -192,11 +198,11 @@ class Client:
         except ValueError:
             pass
 
-    def _end_if_deaf(self, told):
-        """`told`: when requests that have not ended were told to stop."""
-        if told and time.monotonic() - min(told) > SECONDS_TO_STOP:
+    def _end_if_deaf(self, told, patience):
+        """`told`: when a request that has not ended was told to stop."""
+        if time.monotonic() - told > patience:
             self.close()
-            raise EngineError(f"the engine did not stop within {SECONDS_TO_STOP:g} s and was ended")
+            raise EngineError(f"the engine did not stop within {patience:g} s and was ended")
 
     def _sort(self):
         while True:

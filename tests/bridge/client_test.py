@@ -6,9 +6,10 @@ import signal
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 import program
-from lightwell_bridge import exr
+from lightwell_bridge import client as client_module, exr
 from lightwell_bridge.client import Client, sentence_of
 from lightwell_bridge.engine import EngineError, find_engine, version_of
 
@@ -55,16 +56,18 @@ class Requests(WithFake):
         self.assertLess(time.monotonic() - start, 3)
         self.assertEqual(client.ask("load", scene="x")["kind"], "scene")
 
+    @unittest.mock.patch.object(client_module, "SECONDS_LEFT_ALONE", 0.5)
     def test_a_request_that_is_left_ends_at_once_and_the_next_one_is_answered(self):
         client = self.client("slow")
         stops = iter([False, False, True])
         events = list(client.events(self.render(client), stop=lambda: next(stops), leave=True))
         self.assertEqual(events[-1]["event"], "cancelled")
         self.assertEqual(client.ask("load", scene="x")["kind"], "scene")
-        time.sleep(2.2)  # longer than an engine may go on
+        time.sleep(0.6)  # longer than it may go on
         self.assertIsNone(client.next_event(self.render(client), 0))
         self.assertEqual(client.ask("load", scene="x")["kind"], "scene")
 
+    @unittest.mock.patch.object(client_module, "SECONDS_LEFT_ALONE", 0.5)
     def test_a_request_that_had_already_ended_when_it_was_left_is_not_waited_for(self):
         client = self.client()
         number = self.render(client)
@@ -72,7 +75,7 @@ class Requests(WithFake):
         time.sleep(0.5)  # all its events have come
         client.next_event(number, 0)
         self.assertEqual([e["event"] for e in client.events(number, stop=lambda: True, leave=True)], ["cancelled"])
-        time.sleep(2.2)
+        time.sleep(0.6)
         self.assertEqual(client.ask("load", scene="x")["kind"], "scene")
 
     def test_closing_ends_the_process(self):
@@ -116,11 +119,12 @@ class Trouble(WithFake):
             list(client.events(self.render(client), stop=lambda: True))
         self.assertFalse(client.alive())
 
+    @unittest.mock.patch.object(client_module, "SECONDS_LEFT_ALONE", 0.5)
     def test_an_engine_that_goes_on_with_what_was_left_is_ended_by_the_next_request(self):
         client = self.client("hangs")
         list(client.events(self.render(client), stop=lambda: True, leave=True))
         self.assertTrue(client.alive())
-        with self.assertRaisesRegex(EngineError, "did not stop within 2 s and was ended"):
+        with self.assertRaisesRegex(EngineError, "did not stop within 0.5 s and was ended"):
             list(client.events(self.render(client)))
         self.assertFalse(client.alive())
 

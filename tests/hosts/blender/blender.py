@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -54,7 +55,7 @@ class InBlender(unittest.TestCase):
                         BLENDER_USER_CONFIG=str(self.path / "config"), LIGHTWELL_ENGINE=os.environ["LIGHTWELL"],
                         PYTHONDONTWRITEBYTECODE="1", **dict(environment))
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-                                env=settings, cwd=self.path, **more)
+                                env=settings, cwd=self.path, start_new_session=True, **more)
 
     def once(self, *words, **more):
         """The answer of a run that all tests of the class share; the first that asks has it made."""
@@ -71,8 +72,10 @@ class InBlender(unittest.TestCase):
         process = self.start(script, *words, **more)
         try:
             output, _ = process.communicate(timeout=SECONDS)
-        finally:
-            process.kill()
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)  # with the screen and the engines
+            output, _ = process.communicate()
+            raise AssertionError(f"Blender did not end within {SECONDS} s; it said: {output[-4000:]}") from None
         self.output = output
         if not fails:
             self.assertEqual(process.returncode, 0, output[-6000:])

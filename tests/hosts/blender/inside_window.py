@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-import threading
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -65,60 +64,6 @@ def viewport():
     return next(iter(addon("viewport").LIVE), None)
 
 
-def press_escape(pressed):
-    """As a person does; `pressed` gets the time."""
-    pressed.append(time.monotonic())
-    subprocess.run(["xdotool", "key", "Escape"], check=True)
-
-
-# Moments after Render is pressed: Blender writes the scene, the engine reads it, makes it ready, traces.
-WHILE_TRACING_S = (0.02, 0.1, 0.2, 0.4, 0.8, 1.2, 1.7, 2.3, 3.0, 4.5)
-# An engine that has a large picture with all passes three times a second: most of these moments lie within one.
-WHILE_TAKING_OVER_S = (1.0, 1.13, 1.27, 1.4, 1.55, 1.7, 1.85, 2.1, 2.35, 2.6)
-SLOW_S, TRIES = 0.2, 3
-ended, completed = [], []
-
-
-def stop_final_renders():
-    """Escape at several moments of a final picture: seconds until Blender says that the render has ended."""
-    scene = bpy.context.scene
-    scene.lightwell.accuracy = 0.5
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 1920, 1200, 100
-    bpy.app.handlers.render_cancel.append(lambda *_: ended.append(time.monotonic()))
-    bpy.app.handlers.render_complete.append(lambda *_: completed.append(True))
-    subprocess.run(["xdotool", "mousemove", "700", "400"], check=True)
-    yield 1.0
-    # The first render makes Blender draw its window anew, which takes half a second without a graphics card.
-    yield from stop_at((1.0,), "first")
-    yield from stop_at(WHILE_TRACING_S, "tracing")
-    addon("session").close_all()
-    os.environ.update(LIGHTWELL_ENGINE=WORDS[2], FAKE="pictures")
-    yield from stop_at(WHILE_TAKING_OVER_S, "taking_over")
-    found["renders_completed"] = len(completed)
-
-
-def stop_at(moments, name):
-    """`name`: list for each moment of the seconds of its tries; a slow one has several, for other programs hold up the
-    window now and then.
-    """
-    found[name] = []
-    for delay in moments:
-        found[name].append([])
-        while len(found[name][-1]) < TRIES and not any(s < SLOW_S for s in found[name][-1]):
-            ended.clear()
-            with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
-                bpy.ops.render.render("INVOKE_DEFAULT")
-            yield delay
-            pressed = []
-            # In a thread: Blender's own turn of the loop sees the key.
-            threading.Thread(target=press_escape, args=(pressed,), daemon=True).start()
-            waited = time.monotonic()
-            while not ended and time.monotonic() - waited < 20:
-                yield 0.01
-            found[name][-1].append(ended[0] - pressed[0] if ended else 20)
-            yield 0.3
-
-
 def steps():
     """Each yield gives Blender time to draw."""
     prepare()
@@ -161,7 +106,6 @@ def steps():
     found["report"] = report
     bpy.ops.lightwell.clear()
     found["same"] = fingerprint() == before
-    yield from stop_final_renders()
 
 
 running = steps()

@@ -3,9 +3,9 @@
 import os
 import pathlib
 
-from blender import OFFICE, ROOT, InBlender, run
+from blender import OFFICE, InBlender, run
 
-# Stops; and the slowest viewport on a machine whose other programs hold up the window.
+# Half of the stops, and the slowest on a machine whose other programs hold up the window.
 SOON_S, MOST_S = 0.2, 3.0
 
 
@@ -13,7 +13,7 @@ class Window(InBlender):
     def setUp(self):
         self.out = pathlib.Path(os.environ.get("LIGHTWELL_BUILD", self.path)) / "hosts/screenshots/blender"
         self.out.mkdir(parents=True, exist_ok=True)
-        self.result = self.once("inside_window.py", self.out, ROOT / "tests/bridge/fake_engine.py", file=OFFICE, screen=True, fails=True)
+        self.result = self.once("inside_window.py", self.out, file=OFFICE, screen=True, fails=True)
 
     def test_the_viewport_shows_a_picture_and_starts_again_when_something_moves(self):
         self.assertEqual(self.result["errors"], [], self.said[-4000:])
@@ -26,17 +26,6 @@ class Window(InBlender):
         self.assertGreater(len(seconds), 1)
         print(f"viewport stopped after {[round(s * 1000) for s in seconds]} ms")
         self.assert_soon(seconds)
-
-    def test_a_final_picture_stops_within_200_ms_of_escape_at_any_moment(self):
-        """From the key until Blender says that the render has ended: the slowest of twenty."""
-        self.assertEqual(self.result["renders_completed"], 0)
-        self.assertLess(self.result["first"][0][0], MOST_S)
-        for name in ("tracing", "taking_over"):
-            moments = self.result[name]
-            print(f"final picture stopped while {name}: {[[round(s * 1000) for s in tries] for tries in moments]} ms")
-            self.assertEqual(len(moments), 10)
-            for tries in moments:
-                self.assertLess(min(tries), SOON_S)
 
     def assert_soon(self, seconds):
         """The median: other programs on a busy machine may hold up one of them."""
