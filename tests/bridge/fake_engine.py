@@ -18,6 +18,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "plugins"))
 FAKE = os.environ.get("FAKE", "")
 stopped = set()
+drawing = threading.Lock()
 
 
 def say(**event):
@@ -43,10 +44,12 @@ def pictures(request):
     import numpy as np
     from lightwell_bridge import exr
     number, (width, height) = request["id"], request["size"]
-    if not pathlib.Path(request["file"]).exists():
-        values = np.random.default_rng(1).random((height, width))
-        names = [f"Combined.{c}" for c in "RGBA"] + list(PASSES)
-        pathlib.Path(request["file"]).write_bytes(exr.to_bytes({f"{request['layer']}.{name}": values for name in names}))
+    with drawing:  # it takes seconds, and those that were stopped meanwhile shall not repeat it
+        if not pathlib.Path(request["file"]).exists():
+            values = np.random.default_rng(1).random((height, width))
+            names = [f"Combined.{c}" for c in "RGBA"] + list(PASSES)
+            channels = {f"{request['layer']}.{name}": values for name in names}
+            pathlib.Path(request["file"]).write_bytes(exr.to_bytes(channels))
     for _ in range(200):
         if number in stopped:
             return say(event="cancelled", id=number)
