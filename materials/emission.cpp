@@ -39,4 +39,10 @@ bool is_only_seen(const Material& material) noexcept
     return glow != nullptr && glow->max_radius_m < 0;
 }
 
+bool passes_illum_fronts(const Material& lamp) noexcept
+{
+    const auto* glow = std::get_if<Glow>(&lamp);
+    return glow == nullptr || glow->max_radius_m > 0;
+}
+
 } // namespace lightwell

@@ -20,4 +20,9 @@ double beam_share(const Material& material, double distance_m) noexcept;
 /// A glow with a negative radius: eyes and mirrors see it, and it lights nothing.
 bool is_only_seen(const Material& material) noexcept;
 
+/// Whether light of this lamp passes an Illum from behind to its front. What an Illum sends has the light of the sky,
+/// and of glows that are never tested by shadow rays, in it; that of suns and other lamps it leaves out. Source
+/// Radiance reference manual, `illum`; light sources shine through it
+bool passes_illum_fronts(const Material& lamp) noexcept;
+
 } // namespace lightwell

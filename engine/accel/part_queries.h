@@ -65,6 +65,7 @@ struct Trace {
     const MeshGeometry* mesh = nullptr; ///< of the best hit
     bool opaque = false;
     PassedSurfaces* passed = nullptr; ///< of a transmittance query
+    bool* illum_front = nullptr;      ///< of a transmittance query: see RayQueries::transmittance()
 };
 
 /// One level of instancing within a query.
@@ -96,6 +97,7 @@ struct PartQueries {
     const std::vector<PartQueries>* prototypes = nullptr;
     const std::vector<std::uint8_t>* see_through = nullptr; ///< by modifier
     const std::vector<const Material*>* materials = nullptr;
+    const std::vector<ModifierId>* alternates = nullptr; ///< by modifier: what shadow rays meet for an Illum
     const VariedMaterials* varied = nullptr;
     Box box;
     Point centre;
@@ -129,7 +131,9 @@ void prepare_part(PartQueries& queries, const std::vector<Box>& prototype_boxes)
 void build_part(PartQueries& queries, RTCDeviceTy* device);
 
 /// Straight transmittance of a surface that a shadow ray has met.
-/// @param direction  of the ray, unit
-Spectrum passage(const Hit& hit, const Direction& direction, double distance_m, const PartQueries& queries) noexcept;
+/// @param direction    of the ray, unit
+/// @param illum_front  see RayQueries::transmittance()
+Spectrum passage(Hit& hit, const Direction& direction, double distance_m, const PartQueries& queries,
+                 bool* illum_front) noexcept;
 
 } // namespace lightwell

@@ -27,6 +27,17 @@ bool count_memory(void* counter, ssize_t bytes, bool)
     return true;
 }
 
+/// What stands in place of an Illum for light that passes it; void: nothing.
+ModifierId alternate_of(const Scene& scene, const Material* material)
+{
+    const auto* illum = material != nullptr ? std::get_if<Illum>(material) : nullptr;
+    if (illum == nullptr || illum->alternate.empty() || illum->alternate == "void")
+        return void_modifier;
+    const ModifierId alternate = scene.find_modifier(illum->alternate);
+    const Material* instead = alternate != void_modifier ? resolve(scene, alternate).material : nullptr;
+    return instead == nullptr || std::holds_alternative<Illum>(*instead) ? void_modifier : alternate;
+}
+
 } // namespace
 
 struct RayQueries::State {
@@ -34,6 +45,7 @@ struct RayQueries::State {
     std::atomic<std::int64_t> embree_bytes{0};
     std::vector<std::uint8_t> see_through;
     std::vector<const Material*> materials;
+    std::vector<ModifierId> alternates;
     VariedMaterials varied;
     Volumes volumes;
     std::vector<PartQueries> prototypes;
@@ -57,6 +69,7 @@ struct RayQueries::State {
         queries.prototypes = &prototypes;
         queries.see_through = &see_through;
         queries.materials = &materials;
+        queries.alternates = &alternates;
         queries.varied = &varied;
     }
 };
@@ -71,6 +84,7 @@ RayQueries::RayQueries(const Scene& scene) : state_(std::make_unique<State>(scen
     for (std::size_t i = 0; i < scene.modifiers.size(); ++i) {
         const auto id = static_cast<ModifierId>(i);
         state.materials.push_back(resolve(scene, id).material);
+        state.alternates.push_back(alternate_of(scene, state.materials.back()));
         bool see_through = false;
         for (const Material* material : state.varied.possible(id))
             see_through |= material == nullptr || stands_for_geometry(*material) ||
@@ -150,7 +164,7 @@ InVolumes RayQueries::volumes_at(const Point& point) const noexcept
 }
 
 /// A shadow ray where there are volumes: surface by surface.
-Spectrum RayQueries::through_volumes(Ray ray) const noexcept
+Spectrum RayQueries::through_volumes(Ray ray, bool* illum_front) const noexcept
 {
     const Volumes& volumes = state_->volumes;
     const double metres_per_t = length(ray.direction);
@@ -166,7 +180,7 @@ Spectrum RayQueries::through_volumes(Ray ray) const noexcept
         if (volumes.cut_face(ray.in, hit.modifier, entering) != void_modifier)
             return {};
         if (!volumes.bounds(hit.modifier) && !volumes.erased(ray.in, hit.modifier))
-            left *= passage(hit, ray.direction / metres_per_t, hit.t * metres_per_t, state_->root);
+            left *= passage(hit, ray.direction / metres_per_t, hit.t * metres_per_t, state_->root, illum_front);
         ray.in = volumes.behind(ray.in, hit.modifier, entering);
         ray.origin = hit.leave(ray.direction);
         ray.t_max -= hit.t;
@@ -174,15 +188,16 @@ Spectrum RayQueries::through_volumes(Ray ray) const noexcept
     return {};
 }
 
-Spectrum RayQueries::transmittance(const Ray& ray) const noexcept
+Spectrum RayQueries::transmittance(const Ray& ray, bool* illum_front) const noexcept
 {
     ++rays_of_thread.shadow;
     if (state_->volumes.any())
-        return through_volumes(ray);
+        return through_volumes(ray, illum_front);
     PassedSurfaces passed;
     Trace trace{};
     trace.t_max = ray.t_max;
     trace.passed = &passed;
+    trace.illum_front = illum_front;
     Level level = make_level(state_->root, trace, ray.origin, ray.direction);
     run(state_->root, level);
     return trace.opaque ? Spectrum{} : passed.product();

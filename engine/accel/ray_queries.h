@@ -69,8 +69,11 @@ public:
     /// @return false when nothing is met; distant sources are not surfaces in this sense
     bool closest(const Ray& ray, Hit& hit) const noexcept;
     /// What is left of light along the ray: 1 when free, 0 when an opaque surface stands in the way, else the product
-    /// of the straight transmittances of what it passes.
-    Spectrum transmittance(const Ray& ray) const noexcept;
+    /// of the straight transmittances of what it passes. An Illum passes light as its alternate does.
+    /// @param illum_front  null: the front of an Illum, which no scattered ray passes, is the end of the way; else it
+    /// is
+    ///                     passed, and this becomes true
+    Spectrum transmittance(const Ray& ray, bool* illum_front = nullptr) const noexcept;
 
     const Volumes& volumes() const noexcept;
     /// The volumes around a point, told by what a ray from there meets on its way out; {} where the scene has none.
@@ -81,7 +84,7 @@ public:
 
 private:
     struct State;
-    Spectrum through_volumes(Ray ray) const noexcept;
+    Spectrum through_volumes(Ray ray, bool* illum_front) const noexcept;
     std::unique_ptr<State> state_;
 };
 

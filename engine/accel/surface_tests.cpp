@@ -146,12 +146,24 @@ PatternPlace pattern_place(const Hit& hit, const Direction& direction, double di
     return place;
 }
 
-Spectrum passage(const Hit& hit, const Direction& direction, double distance_m, const PartQueries& queries) noexcept
+Spectrum passage(Hit& hit, const Direction& direction, double distance_m, const PartQueries& queries,
+                 bool* illum_front) noexcept
 {
+    const double cosine = dot(hit.normal, direction);
+    const Material* material = (*queries.materials)[static_cast<std::size_t>(hit.modifier)];
+    if (material != nullptr && std::holds_alternative<Illum>(*material)) {
+        if (cosine < 0 && illum_front == nullptr)
+            return {};
+        if (cosine < 0)
+            *illum_front = true;
+        hit.modifier = (*queries.alternates)[static_cast<std::size_t>(hit.modifier)];
+        if (hit.modifier == void_modifier)
+            return Spectrum::grey(1);
+        material = (*queries.materials)[static_cast<std::size_t>(hit.modifier)];
+    }
     const ModifierId modifier = hit.modifier;
     if (!(*queries.see_through)[static_cast<std::size_t>(modifier)])
         return {};
-    const Material* material = (*queries.materials)[static_cast<std::size_t>(modifier)];
     SeenMaterial seen;
     if (queries.varied->varies(modifier)) {
         queries.varied->look(modifier, pattern_place(hit, direction, distance_m), seen);
@@ -161,7 +173,6 @@ Spectrum passage(const Hit& hit, const Direction& direction, double distance_m, 
     }
     if (stands_for_geometry(*material))
         return Spectrum::grey(1);
-    const double cosine = dot(hit.normal, direction);
     const Frame frame = frame_of(*material, cosine < 0 ? hit.normal : -hit.normal);
     const Bsdf bsdf(*material, cosine < 0, frame);
     if (!bsdf.lobes().transparent_to_shadows)
@@ -229,11 +240,6 @@ void record_passage(const Level& level, const Candidate& candidate, double t)
     const Level* root = &level;
     while (root->outer != nullptr)
         root = root->outer;
-    const double cosine = dot(normal, normalized(root->direction));
-    if (std::holds_alternative<Illum>(*material)) { // what stands behind lights through it, never through its front
-        trace.opaque = cosine < 0;
-        return;
-    }
     Hit hit;
     hit.position = root->origin + root->direction * t;
     hit.normal = normal;
@@ -242,10 +248,11 @@ void record_passage(const Level& level, const Candidate& candidate, double t)
     hit.part = queries.part;
     hit.surface = candidate.surface;
     hit.triangle = candidate.triangle;
-    if (queries.varied->varies(modifier))
+    const ModifierId alternate = (*queries.alternates)[static_cast<std::size_t>(modifier)];
+    if (queries.varied->varies(modifier) || (alternate != void_modifier && queries.varied->varies(alternate)))
         hit.to_part = into_part(level);
     const double stretch = length(root->direction);
-    const Spectrum passed = passage(hit, root->direction / stretch, t * stretch, queries);
+    const Spectrum passed = passage(hit, root->direction / stretch, t * stretch, queries, trace.illum_front);
     trace.opaque = passed.is_black();
     if (!trace.opaque)
         trace.passed->add(t, passed);

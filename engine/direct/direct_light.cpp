@@ -2,6 +2,7 @@
 
 #include "engine/direct/tested_sources.h"
 #include "engine/sources/weighted_choice.h"
+#include "materials/emission.h"
 
 namespace lightwell {
 namespace {
@@ -59,8 +60,7 @@ struct DirectLight::Task {
     Gathered& sum;
 };
 
-void DirectLight::add(const Task& task, const SourceSample& sample, double density_per_sr,
-                      bool found_by_scattering) const
+void DirectLight::add(const Task& task, const SourceSample& sample, double density_per_sr, const Finding& by) const
 {
     if (!(density_per_sr > 0) || sample.radiance.is_black())
         return;
@@ -72,11 +72,13 @@ void DirectLight::add(const Task& task, const SourceSample& sample, double densi
     if (local.z <= 0 && value.is_black())
         return;
     ++task.sum.shadow_rays;
-    const Spectrum seen = rays_.transmittance(shadow_ray(vertex.hit, sample));
+    bool illum_front = false; // which scattered rays do not pass
+    const Spectrum seen =
+        rays_.transmittance(shadow_ray(vertex.hit, sample), by.passes_illum_fronts ? &illum_front : nullptr);
     if (seen.is_black())
         return;
     add_light(task.sum, vertex, {local, value, sample.radiance * seen, density_per_sr},
-              {task.wish.scattered, found_by_scattering});
+              {task.wish.scattered, by.scattering && !illum_front && !task.wish.alone});
 }
 
 bool DirectLight::few_lamps() const noexcept
@@ -88,9 +90,12 @@ void DirectLight::lamp(const Task& task, std::size_t at, double probability, Uni
                        const SourceShares& shares) const
 {
     const LocalSource& lamp = sources_.lamps()[at];
+    const auto* glow = settings_.glow_radii ? std::get_if<Glow>(&lamp.material()) : nullptr;
+    if (glow != nullptr && !(length(lamp.centre() - shares.from) <= glow->max_radius_m))
+        return;
     const SourceSample sample = lamp.sample(shares.from, u);
     add(task, sample, sample.density_per_sr * shares.lamp_rays * probability,
-        !std::holds_alternative<Illum>(lamp.material()));
+        {glow == nullptr && !std::holds_alternative<Illum>(lamp.material()), passes_illum_fronts(lamp.material())});
 }
 
 void DirectLight::lamps(const Task& task, PathRandom& random, SourceShares& shares) const
@@ -144,7 +149,7 @@ void DirectLight::sky(const Task& task, PathRandom& random, SourceShares& shares
     const double offset = random.one();
     for (int k = 0; k < shares.sky_rays; ++k) {
         const SourceSample sample = sky_sample(shares, (k + offset) / shares.sky_rays, random.pair());
-        add(task, sample, sample.density_per_sr, true);
+        add(task, sample, sample.density_per_sr, {true, false});
     }
 }
 
@@ -166,7 +171,7 @@ Gathered DirectLight::gather(const Vertex& vertex, const GatherWish& wish, PathR
     if (wish.kinds.suns)
         for (const SunSource& sun : sources_.suns()) {
             const SourceSample sample = sun.sample(random.pair());
-            add(task, sample, sample.density_per_sr, true);
+            add(task, sample, sample.density_per_sr, {true, true});
         }
     if (wish.kinds.sky && !sources_.sky().empty())
         sky(task, random, shares);

@@ -69,6 +69,7 @@ struct GatherWish {
     SourceKinds kinds = {};
     /// Lobes whose scattered rays find sources too; the light of the others comes by shadow rays alone.
     LobeSet scattered = LobeSet::all;
+    bool alone = false; ///< scattered rays leave out what these find
 };
 
 /// Light straight from the sources, by shadow rays.
@@ -106,7 +107,12 @@ public:
 private:
     struct Task;
     bool few_lamps() const noexcept;
-    void add(const Task& task, const SourceSample& sample, double density_per_sr, bool found_by_scattering) const;
+    /// What else is known of a sample.
+    struct Finding {
+        bool scattering;          ///< scattered rays find the source too
+        bool passes_illum_fronts; ///< materials/emission.h
+    };
+    void add(const Task& task, const SourceSample& sample, double density_per_sr, const Finding& by) const;
     void lamp(const Task& task, std::size_t at, double probability, UnitSquare u, const SourceShares& shares) const;
     void lamps(const Task& task, PathRandom& random, SourceShares& shares) const;
     void sky(const Task& task, PathRandom& random, SourceShares& shares) const;

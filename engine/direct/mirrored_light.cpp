@@ -1,5 +1,7 @@
 #include "engine/direct/mirrored_light.h"
 
+#include "materials/emission.h"
+
 namespace lightwell {
 namespace {
 
@@ -34,7 +36,8 @@ SourceSample MirroredLight::aim(const Task& task, const VirtualSource& image, Un
 }
 
 /// What mirrors and everything between let through on the way to a sampled place of the source.
-Spectrum MirroredLight::seen(const Vertex& vertex, const MirrorRoute& route, const SourceSample& sample) const noexcept
+Spectrum MirroredLight::seen(const Vertex& vertex, const MirrorRoute& route, const SourceSample& sample,
+                             bool* illum_front) const noexcept
 {
     std::array<Ray, Reflections::most + 1> legs;
     Direction direction = folded(route, sample.to_light);
@@ -63,7 +66,7 @@ Spectrum MirroredLight::seen(const Vertex& vertex, const MirrorRoute& route, con
                               : Ray{start, at + direction * left_m - start, before_lamp, vertex.hit.in};
     Spectrum left = route.reflectance;
     for (int i = route.reflections.count; i >= 0 && !left.is_black(); --i)
-        left *= rays_.transmittance(legs[static_cast<std::size_t>(i)]);
+        left *= rays_.transmittance(legs[static_cast<std::size_t>(i)], illum_front);
     return left;
 }
 
@@ -80,13 +83,17 @@ void MirroredLight::test(const Task& task, const VirtualSource& image, double ra
     const Spectrum value = vertex.bsdf.value_per_sr(vertex.to_viewer, local);
     if (local.z <= 0 && value.is_black())
         return;
-    const Spectrum arriving = seen(vertex, route, sample);
+    const Material* lamp = image.is_sun ? nullptr : &real_.lamps()[image.source].material();
+    bool illum_front = false; // which scattered rays do not pass
+    const Spectrum arriving =
+        seen(vertex, route, sample, lamp == nullptr || passes_illum_fronts(*lamp) ? &illum_front : nullptr);
     if (arriving.is_black())
         return;
     // Scattered rays leave the light of an Illum to shadow rays, and do not see mirrors that show something else.
     const bool found_by_scattering =
+        !illum_front && !task.wish.alone &&
         !sources_.mirrors().hidden(route.reflections.mirrors.data(), route.reflections.count) &&
-        (image.is_sun || !std::holds_alternative<Illum>(real_.lamps()[image.source].material()));
+        (lamp == nullptr || !std::holds_alternative<Illum>(*lamp));
     add_light(task.sum, vertex, {local, value, sample.radiance * arriving, sample.density_per_sr * rays},
               {task.wish.scattered, found_by_scattering});
 }

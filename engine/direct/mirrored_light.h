@@ -71,7 +71,8 @@ private:
     struct Task;
     SourceSample aim(const Task& task, const VirtualSource& image, UnitSquare u) const noexcept;
     void test(const Task& task, const VirtualSource& image, double rays, UnitSquare u) const;
-    Spectrum seen(const Vertex& vertex, const MirrorRoute& route, const SourceSample& sample) const noexcept;
+    Spectrum seen(const Vertex& vertex, const MirrorRoute& route, const SourceSample& sample,
+                  bool* illum_front) const noexcept;
     double rays_of(const MirrorShares& shares, const MirrorChain& chain, bool is_sun, int source) const noexcept;
 
     const VirtualSources& sources_;

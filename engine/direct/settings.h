@@ -21,6 +21,7 @@ struct DirectSettings {
     bool analytic = true;           ///< false: irradiance from the samples alone, also where a closed form is known
     bool tree = true;               ///< false: every lamp is looked at
     bool sampled_remainder = false; ///< untested sources: one at random (unbiased) instead of by their history
+    bool glow_radii = false;        ///< glows are tested within their radius alone, for comparison with other programs
 };
 
 } // namespace lightwell

@@ -153,6 +153,7 @@ void TestedSources::add_lamp(std::size_t lamp, double weight)
     if (!(safe > 0) || !(photopic_radiance > 0))
         return;
     Candidate c{lamp, weight};
+    c.passes_fronts = passes_illum_fronts(source.material());
     c.size = source.seen_size(shares_.from);
     c.mis = std::holds_alternative<Illum>(source.material()) ? infinity : nominal_rays(lamps_, context_.settings);
     const Vec3 to_middle = normalized(source.centre() - shares_.from);
@@ -264,9 +265,10 @@ void TestedSources::test_sample(const Candidate& c, const SourceSample& sample, 
     tested.all += cosine;
     ++tested.rays;
     Spectrum seen;
+    bool illum_front = false; // which scattered rays do not pass
     if (!sample.radiance.is_black() && vertex_.same_side(sample.to_light, local)) {
         ++sum_.shadow_rays;
-        seen = context_.rays.transmittance(shadow_ray(vertex_.hit, sample));
+        seen = context_.rays.transmittance(shadow_ray(vertex_.hit, sample), c.passes_fronts ? &illum_front : nullptr);
     }
     if (seen.is_black()) {
         ++tested.blocked;
@@ -280,7 +282,7 @@ void TestedSources::test_sample(const Candidate& c, const SourceSample& sample, 
         tested.arriving += light;
     if (vertex_.bsdf.lobes().glossy)
         tested.highlight += light * vertex_.bsdf.value_per_sr(vertex_.to_viewer, local, LobeSet::specular) *
-                            mis_weight(c, sample.density_per_sr, local);
+                            (illum_front ? 1 : mis_weight(c, sample.density_per_sr, local));
 }
 
 TestedSources::Tested TestedSources::probe(const Candidate& c, int probes)

@@ -35,6 +35,7 @@ private:
         bool closed_form = false;          ///< projected_sr is exact
         bool rough = false;                ///< projected_sr is that of the middle
         double mis = 1;                    ///< nominal rays; for Illum infinite: no scattered ray finds it
+        bool passes_fronts = true;         ///< of an Illum
         double size = 0;                   ///< over distance
         Spectrum radiance{}, irradiance{}; ///< of the vertex by this source when nothing is in the way, times weight
         double potential = 0;

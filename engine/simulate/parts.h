@@ -26,12 +26,19 @@ struct SimulationParts {
         : scene(with_open_sheets(std::move(s), p.secondary)),
           plan(plan_for(needs_of(scene), {PlanWish{}.accuracy, p.virtual_sources ? p.virtual_depth : 0})), rays(scene),
           sources(scene, rays), virtual_sources(scene, sources, virtual_settings()), secondary(scene, p.secondary),
-          tracer(scene, rays, sources, virtual_sources, {nullptr, nullptr, nullptr, p.ambient_limit}, p.direct),
+          tracer(scene, rays, sources, virtual_sources, {nullptr, nullptr, nullptr, p.ambient_limit},
+                 direct_settings(p)),
           box(bounds(scene)), preparation(p)
     {
     }
 
 private:
+    static DirectSettings direct_settings(const Preparation& preparation)
+    {
+        DirectSettings settings = preparation.direct;
+        settings.glow_radii = preparation.ambient_limit.has_value();
+        return settings;
+    }
     /// Bent meshes may have flat parts; a depth out of range is left for VirtualSources to refuse.
     VirtualSettings virtual_settings() const
     {

@@ -20,6 +20,16 @@ Spectrum power(const Spectrum& s, double exponent)
     return {std::pow(s.r, exponent), std::pow(s.g, exponent), std::pow(s.b, exponent)};
 }
 
+/// The diffuse material that stands for one with functions where other programs ask the functions for the light of
+/// lamps and suns alone. Its patterns are in the colour already.
+std::optional<Material> stand_in(const Material& material)
+{
+    const auto* m = std::get_if<Functional>(&material);
+    if (m == nullptr || m->kind == Functional::Kind::BRTDfunc)
+        return {};
+    return Trans{m->colour, 0, 0, m->transmission * (1 - m->specularity), 0};
+}
+
 } // namespace
 
 /// A surface that bounds a volume, or that is erased by one, is passed.
@@ -171,17 +181,38 @@ bool PathTracer::turn_in_prism(Walk& walk, const Hit& hit, const Prism& prism, P
     return survives(walk, random);
 }
 
-/// Diffuse scattering up to a number of times, constant light instead beyond.
-bool PathTracer::scatter_within_limit(Walk& walk, const Vertex& vertex, PathRandom& random) const
+/// What stands in for all further diffuse interreflection.
+/// @return false: the walk ends
+bool PathTracer::add_constant(Walk& walk, const Lobes& lobes) const
 {
+    walk.add(ambient_.limit->radiance * (lobes.diffuse_reflectance + lobes.diffuse_transmittance));
+    if (walk.at_first)
+        walk.irradiance += ambient_.limit->radiance * pi;
+    return false;
+}
+
+/// Diffuse scattering up to a number of times, constant light instead beyond.
+bool PathTracer::scatter_within_limit(Walk& walk, const Vertex& vertex, const Material& material,
+                                      PathRandom& random) const
+{
+    if (const std::optional<Material> plain = stand_in(material)) {
+        gather_plainly(walk, vertex, {walk.at_first ? seen_rays : later_rays, {true, true, false}, LobeSet::all, true},
+                       random);
+        const Vertex instead(vertex.hit, walk.ray.direction, *plain);
+        if (walk.diffuse_bounces >= ambient_.limit->bounces)
+            return add_constant(walk, instead.bsdf.lobes());
+        ++walk.diffuse_bounces;
+        if (!scatter(walk, instead, LobeSet::all, random))
+            return false;
+        walk.sources = Walk::Sources::answered;
+        return true;
+    }
     const Lobes& lobes = vertex.bsdf.lobes();
     const bool sharp_too = lobes.glossy || lobes.delta;
     const int rays = walk.at_first ? seen_rays : later_rays;
     if (walk.diffuse_bounces >= ambient_.limit->bounces) {
         gather_plainly(walk, vertex, {rays, {true, true, false}, LobeSet::specular}, random);
-        walk.add(ambient_.limit->radiance * (lobes.diffuse_reflectance + lobes.diffuse_transmittance));
-        if (walk.at_first)
-            walk.irradiance += ambient_.limit->radiance * pi;
+        add_constant(walk, lobes);
         return sharp_too && scatter(walk, vertex, LobeSet::specular, random);
     }
     gather_plainly(walk, vertex, {rays}, random);

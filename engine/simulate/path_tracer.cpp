@@ -126,11 +126,15 @@ void PathTracer::meet_distant(Walk& walk) const
 }
 
 /// Whether the light of a lamp or a sun that a ray has met has come by shadow rays alone. In a mirror that is so for
-/// those that have an image there; the others count in full.
+/// those that have an image there; the others count in full, but not where interreflection is limited as in other
+/// programs, which leave them out.
 bool PathTracer::answered(const Walk& walk, bool is_sun, int source) const
 {
-    return walk.sources == Walk::Sources::answered &&
-           (!walk.chain.mirrored() || mirrored_.answered(walk.chain, is_sun, source));
+    const bool in_full = walk.sources == Walk::Sources::in_full ||
+                         (walk.chain.mirrored() && !mirrored_.answered(walk.chain, is_sun, source));
+    if (in_full)
+        return ambient_.limit && walk.bent;
+    return walk.sources == Walk::Sources::answered;
 }
 
 void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& material) const
@@ -140,9 +144,14 @@ void PathTracer::meet_emitter(Walk& walk, const Hit& hit, const Material& materi
         emitted_towards(material, -dot(hit.normal, direction), -direction) * beam_share(material, walk.way_m);
     if (radiance.is_black() || walk.aimed || (walk.bent && is_only_seen(material)))
         return;
+    if (const auto* glow = std::get_if<Glow>(&material); glow != nullptr && ambient_.limit && walk.bent) {
+        if (hit.t > glow->max_radius_m) // nearer, shadow rays find it
+            walk.add(radiance);
+        return;
+    }
     const int lamp = sources_.lamp_at(hit);
     double shadow_density = 0;
-    if (lamp >= 0 && walk.sources != Walk::Sources::in_full) {
+    if (lamp >= 0 && (walk.sources != Walk::Sources::in_full || (ambient_.limit && walk.bent))) {
         const bool has_image = walk.chain.mirrored() && mirrored_.answered(walk.chain, false, lamp);
         const bool by_shadow_rays_alone =
             std::holds_alternative<Illum>(material) && (has_image || !walk.chain.mirrored());
@@ -399,7 +408,7 @@ bool PathTracer::meet_surface(Walk& walk, PathRandom& random) const
     if (walk.straight_from_receiver && (is_diffuse(lobes) || lobes.glossy))
         walk.settle_aim();
     if (ambient_.limit && is_diffuse(lobes))
-        return scatter_within_limit(walk, vertex, random);
+        return scatter_within_limit(walk, vertex, *material, random);
     AmbientHere here;
     if (is_diffuse(lobes) && find_ambient(walk, vertex, here)) {
         add_ambient(walk, here);

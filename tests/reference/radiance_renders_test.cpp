@@ -29,14 +29,15 @@ fs::path scenes_folder()
     return fs::path(elsewhere != nullptr ? elsewhere : LIGHTWELL_ROOT "/../shared") / "reference/radiance-renders";
 }
 
-/// Gaussian of one reference pixel's radius, cut at one and a half.
+/// Gaussian of one reference pixel's radius, cut to a square of two each way: the filter that the references went
+/// through (the answer of `pfilt -r 1` to a single bright sample).
 Picture reduced(const Picture& fine, int width, int height)
 {
     Picture coarse;
     coarse.width = width;
     coarse.height = height;
     const double across = static_cast<double>(fine.width) / width, down = static_cast<double>(fine.height) / height;
-    constexpr double cut = 1.5;
+    constexpr double cut = 2;
     for (const char* channel : {"R", "G", "B"}) {
         std::vector<float>& values = coarse.add_channel(channel);
         for (int y = 0; y < height; ++y)
@@ -47,10 +48,8 @@ Picture reduced(const Picture& fine, int width, int height)
                      ++j)
                     for (int i = std::max(0, static_cast<int>(cx - cut * across));
                          i < fine.width && i < cx + cut * across; ++i) {
-                        const double dx = (i + 0.5 - cx) / across, dy = (j + 0.5 - cy) / down, d = dx * dx + dy * dy;
-                        if (d > cut * cut)
-                            continue;
-                        const double weight = std::exp(-d);
+                        const double dx = (i + 0.5 - cx) / across, dy = (j + 0.5 - cy) / down;
+                        const double weight = std::exp(-dx * dx - dy * dy);
                         sum += weight * static_cast<double>(fine.at(channel, i, j));
                         weights += weight;
                     }

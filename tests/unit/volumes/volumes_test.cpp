@@ -163,6 +163,90 @@ TEST(AmbientLimit, GivesConstantLightWhereNoMoreScatteringsAreFollowed)
     }
 }
 
+Preparation limited(int bounces, double constant = 0)
+{
+    Preparation preparation;
+    preparation.ambient_limit = AmbientLimit{bounces, Spectrum::grey(constant)};
+    return preparation;
+}
+
+TEST(AmbientLimit, LeavesOutLampsThatScatteredRaysMeetInPolishedMetal)
+{
+    const std::string metal = "void metal polished 0 0 5 .8 .8 .8 1 0\npolished ring plate 0 0 8 0 0 2 0 0 -1 0 9\n";
+    const std::string light = "void light lit 0 0 3 5 5 5\n";
+    const std::string lamp_up = "lit ring r 0 0 8 2 0 0 0 0 1 0 1\n", image = "lit ring r 0 0 8 2 0 4 0 0 -1 0 1\n";
+    const double seen_in_metal = illuminance_lx(light + metal + lamp_up, {0, 0, 0}, {}, 1 << 15);
+    EXPECT_NEAR(seen_in_metal / (0.8 * illuminance_lx(light + image, {0, 0, 0})), 1, 0.03);
+    EXPECT_EQ(illuminance_lx(light + metal + lamp_up, {0, 0, 0}, limited(1)), 0);
+    // The eye sees the lamp there all the same.
+    const std::string on_floor = "void metal polished 0 0 5 .8 .8 .8 1 0\npolished ring plate 0 0 8 0 0 0 0 0 1 0 9\n";
+    EXPECT_NEAR(seen_radiance(light + on_floor + image, {2, 0, 3}, limited(1)), 0.8 * 5, 0.01);
+}
+
+TEST(AmbientLimit, TestsGlowsWithinTheirRadiusAndMeetsThemBeyond)
+{
+    const auto scene = [](const char* radius_m) {
+        return std::string("void glow dim 0 0 4 5 5 5 ") + radius_m + "\ndim sphere s 0 0 4 0 0 3 .5\n";
+    };
+    const double whole = 179 * pi * 5 * 0.25 / 9;
+    for (const char* radius : {"0", "1", "5"})
+        EXPECT_NEAR(illuminance_lx(scene(radius), {0, 0, 0}, limited(1), 1 << 15) / whole, 1, 0.03) << radius;
+    EXPECT_NEAR(illuminance_lx(scene("5"), {0, 0, 0}, limited(0)) / whole, 1, 0.01);
+    EXPECT_EQ(illuminance_lx(scene("1"), {0, 0, 0}, limited(0)), 0);
+    // Its middle is out of reach, its near side within: counted neither way, but for the rim.
+    EXPECT_LT(illuminance_lx(scene("2.9"), {0, 0, 0}, limited(1)), 0.5 * whole);
+}
+
+TEST(AmbientLimit, TakesFunctionsForDiffuseInAllLightButThatOfLamps)
+{
+    const std::string metal = "void metfunc brushed 2 .2 . 0 4 .6 .6 .6 .5\nbrushed ring r 0 0 8 0 0 0 0 0 1 0 9\n";
+    const std::string sky = "void glow even 0 0 4 1 1 1 0\neven source dome 0 0 4 0 0 1 360\n";
+    EXPECT_NEAR(seen_radiance(metal + sky, {0, 0, 4}), 0.3 + 0.3 * 0.2 * pi, 0.01);
+    EXPECT_NEAR(seen_radiance(metal + sky, {0, 0, 4}, limited(1)), 0.6, 0.01);
+    EXPECT_NEAR(seen_radiance(metal, {0, 0, 4}, limited(0, 2)), 0.6 * 2, 1e-6);
+    // A lamp: the function as it is.
+    const std::string beam = "void light lit 0 0 3 900 900 900\nlit source s 0 0 4 0 0 1 1\n";
+    const double irradiance = 900 * pi * std::pow(std::sin(0.5 * pi / 180), 2);
+    EXPECT_NEAR(seen_radiance(metal + beam, {0, 0, 4}, limited(0)) / ((0.3 / pi + 0.3 * 0.2) * irradiance), 1, 1e-3);
+}
+
+/// A sheet one metre over the floor whose front looks down, or up.
+std::string illum_sheet(const char* alternate, bool front_down)
+{
+    return "void glass pane 0 0 3 .9 .9 .9\nvoid plastic grey 0 0 5 .5 .5 .5 0 0\nvoid illum sheet 1 " +
+           std::string(alternate) + " 0 3 0 0 0\nsheet ring r 0 0 8 0 0 1 0 0 " + (front_down ? "-1" : "1") +
+           " 0 1000\n";
+}
+
+TEST(Illum, PassesTheLightOfLampsAsItsAlternateDoes)
+{
+    const std::string pane = "void glass pane 0 0 3 .9 .9 .9\npane ring r 0 0 8 0 0 1 0 0 1 0 1000\n";
+    const double open = illuminance_lx(lamp, {0.2, 0, 0}), glazed = illuminance_lx(lamp + pane, {0.2, 0, 0});
+    // Elsewhere a body with a hole in it, so that rays ask which volumes they are in.
+    const std::string carved = "void plastic wood 0 0 5 .3 .3 .3 0 0\nvoid antimatter hole 1 wood 0 0\n" +
+                               box("hole", "cut", {50, 50, 50}, {51, 51, 51});
+    for (const bool front_down : {true, false})
+        for (const std::string& more : {std::string(), carved}) {
+            SCOPED_TRACE(front_down ? "from behind to the front" : "from the front to behind");
+            const std::string all = lamp + more;
+            EXPECT_NEAR(illuminance_lx(all + illum_sheet("void", front_down), {0.2, 0, 0}) / open, 1, 1e-3);
+            EXPECT_NEAR(illuminance_lx(all + illum_sheet("pane", front_down), {0.2, 0, 0}) / glazed, 1, 0.01);
+            EXPECT_EQ(illuminance_lx(all + illum_sheet("grey", front_down), {0.2, 0, 0}), 0);
+        }
+}
+
+TEST(Illum, StandsForTheSkyBehindIt)
+{
+    const std::string sky = "void glow even 0 0 4 1 1 1 0\neven source dome 0 0 4 0 0 1 180\n";
+    const double open = illuminance_lx(sky, {0, 0, 0});
+    EXPECT_NEAR(open / (179 * pi), 1, 0.01);
+    EXPECT_LT(illuminance_lx(sky + illum_sheet("void", true), {0, 0, 0}), 1e-3 * open);
+    EXPECT_NEAR(illuminance_lx(sky + illum_sheet("void", false), {0, 0, 0}) / open, 1, 0.01);
+    // A glow that is never tested by shadow rays is to it what the sky is.
+    const std::string panel = "void glow dim 0 0 4 5 5 5 0\ndim ring p 0 0 8 0 0 2 0 0 -1 0 1\n";
+    EXPECT_EQ(illuminance_lx(panel + illum_sheet("void", true), {0, 0, 0}), 0);
+}
+
 TEST(Glow, OfNegativeRadiusIsSeenAndLightsNothing)
 {
     const std::string only_seen = "void glow dim 0 0 4 5 5 5 -1\ndim sphere s 0 0 4 0 0 2 .5\n";
