@@ -50,8 +50,12 @@ PilotRun measure(const Excerpt& excerpt, double accuracy, int samples, const Pro
     const auto rays = [](const RayCounts& counts) { return static_cast<double>(counts.total()); };
     PilotRun run{accuracy, excerpt.items, static_cast<double>(outcome.samples), outcome.error, {}, {}, {}};
     run.ambient = {rays(outcome.work.ambient_rays), clock.seconds("ambient light")};
-    run.fixed = {rays(outcome.work.fixed_rays), clock.seconds("pilot run") + clock.seconds("check")};
-    run.values = {rays(outcome.work.value_rays), std::fmax(clock.total() - run.ambient.seconds - run.fixed.seconds, 0)};
+    // Values go on from what a first look has followed: of the time beside ambient light, each has its share by rays.
+    const double rest_s = std::fmax(clock.total() - run.ambient.seconds, 0);
+    const double fixed_rays = rays(outcome.work.fixed_rays), value_rays = rays(outcome.work.value_rays);
+    const double fixed_share = fixed_rays / std::fmax(fixed_rays + value_rays, 1);
+    run.fixed = {fixed_rays, rest_s * fixed_share};
+    run.values = {value_rays, rest_s * (1 - fixed_share)};
     return run;
 }
 

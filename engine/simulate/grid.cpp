@@ -48,21 +48,25 @@ void add_records(AmbientBuild& ambient, const std::vector<SurfacePlace>& receive
 class PilotRun {
 public:
     PilotRun(const SensorTask& task, int threads, const Progress& progress, const std::string& grid)
-        : task_(task), threads_(threads), teller_(progress, "pilot run, grid " + grid, pilot_sensors)
+        : task_(task), threads_(threads), teller_(progress, "pilot run, grid " + grid, pilot_sensors),
+          step_(step_for(task.places.size(), pilot_sensors)), begun_(step_, task.places.size())
     {
     }
     double shared_error() { return error_with(pilot_paths / same_paths_share, true); }
+    /// What samples_for() has followed, to be gone on with.
+    BegunSensors& begun() noexcept { return begun_; }
+    /// Samples of each of its sensors.
+    int looked_at() const noexcept { return looked_at_; }
     /// Far beyond what was looked at, a further look tells how errors really fall.
     int samples_for(double shared, double accuracy)
     {
         constexpr int times = 4;
-        int looked_at = pilot_paths;
-        double with_fewer = error_with(looked_at / times, false);
-        for (;; looked_at *= times) {
-            const double found = error_with(looked_at, false);
-            const PilotErrors pilot = pilot_errors(found, looked_at, shared, with_fewer, looked_at / times);
+        double with_fewer = error_with(pilot_paths / times, false);
+        for (looked_at_ = pilot_paths;; looked_at_ *= times) {
+            const double found = error_with(looked_at_, false);
+            const PilotErrors pilot = pilot_errors(found, looked_at_, shared, with_fewer, looked_at_ / times);
             const int samples = lightwell::samples_for(pilot, accuracy, most_samples);
-            if (samples <= times * looked_at)
+            if (samples <= times * looked_at_)
                 return samples;
             with_fewer = found;
         }
@@ -71,14 +75,16 @@ public:
 private:
     double error_with(int samples, bool same_paths)
     {
-        const std::size_t count = task_.places.size();
-        const MeasuredSensors some = measure_sensors(task_, samples, every_of(step_for(count, pilot_sensors), count),
-                                                     threads_, teller_, same_paths);
+        const MeasuredSensors some = measure_sensors(task_, samples, every_of(step_, task_.places.size()), threads_,
+                                                     teller_, same_paths ? nullptr : &begun_, same_paths);
         return median_relative(some.values, some.errors);
     }
     const SensorTask& task_;
     int threads_;
     Teller teller_;
+    std::size_t step_;
+    BegunSensors begun_;
+    int looked_at_ = 0;
 };
 
 /// Sensors meet many places of the deep field, so that few rays a site often serve; where its error shows in the pilot
@@ -116,75 +122,145 @@ void add_bias(GridResult& result, const SensorTask& plain, int threads, Teller& 
         result.biases.push_back(Illuminance{local.at(plain.places[i].position, result.values[i].value)});
 }
 
+/// One grid, from ambient light to the check.
+class GridRun {
+public:
+    GridRun(const SimulationParts& parts, const SensorGrid& grid, const GridSettings& settings,
+            const Progress& progress)
+        : parts_(parts), grid_(grid), settings_(settings), progress_(progress)
+    {
+        for (const Sensor& sensor : grid.sensors)
+            receivers_.push_back(receiver_of(sensor, parts.box.diagonal()));
+        techniques_.cache = techniques_.cache && receivers_.size() >= many_sensors;
+    }
+    GridResult run();
+
+private:
+    bool limited() const { return parts_.preparation.ambient_limit.has_value(); }
+    bool only_direct() const
+    {
+        const std::optional<AmbientLimit>& limit = parts_.preparation.ambient_limit;
+        return !settings_.unbiased && (limit ? limit->bounces == 0 : parts_.plan.needs.only_direct());
+    }
+    bool plain() const
+    {
+        return settings_.unbiased || !techniques_.deep_field || limited() || parts_.plan.needs.only_direct();
+    }
+    /// The deep field serves this grid alone, so that its work can follow what it shows.
+    bool own_field() const { return !plain() && !techniques_.cache && settings_.ambient_file.file.empty(); }
+    AmbientEffort effort() const
+    {
+        AmbientEffort effort = effort_of(settings_);
+        if (own_field())
+            effort.set_deep(std::min(first_deep * settings_.accuracy, coarsest_deep));
+        return effort;
+    }
+    SensorTask task_with(const AmbientBuild& ambient) const
+    {
+        SensorTask task{plain() ? parts_.tracer : ambient.tracer(), receivers_, settings_.seed,
+                        plain() || techniques_.cache ? nullptr : &ambient.deep()};
+        if (only_direct())
+            task.only_direct = limited() ? parts_.preparation.ambient_limit->radiance * pi : Spectrum{};
+        return task;
+    }
+    void build(AmbientBuild& ambient);
+    double refine(AmbientBuild& ambient, PilotRun& pilot, double work);
+    void measure(const SensorTask& task, PilotRun& pilot);
+    void check();
+
+    const SimulationParts& parts_;
+    const SensorGrid& grid_;
+    const GridSettings& settings_;
+    const Progress& progress_;
+    std::vector<SurfacePlace> receivers_;
+    Techniques techniques_ = settings_.techniques;
+    RayLaps rays_;
+    RayCounts ambient_rays_, fixed_rays_;
+    GridResult result_;
+};
+
+void GridRun::build(AmbientBuild& ambient)
+{
+    progress_.tell("ambient light, grid " + grid_.name, 0);
+    ambient.build_deep(receivers_.size(), from_sensors(receivers_));
+    if (techniques_.cache)
+        add_records(ambient, receivers_);
+    ambient_rays_ += rays_.next();
+}
+
+/// @return  the error that more samples would not lower
+double GridRun::refine(AmbientBuild& ambient, PilotRun& pilot, double work)
+{
+    if (plain() || (!own_field() && settings_.samples > 0))
+        return 0;
+    double shared = pilot.shared_error();
+    while (own_field() && shared > most_shared * settings_.accuracy && work < most_work) {
+        work = more_work(work, shared, settings_.accuracy);
+        fixed_rays_ += rays_.next();
+        ambient.refine_deep(work);
+        ambient_rays_ += rays_.next();
+        shared = pilot.shared_error();
+    }
+    return shared;
+}
+
+void GridRun::measure(const SensorTask& task, PilotRun& pilot)
+{
+    Teller teller(progress_, "grid " + grid_.name, receivers_.size());
+    MeasuredSensors all = measure_sensors(task, result_.samples, every_of(1, receivers_.size()), settings_.threads,
+                                          teller, &pilot.begun());
+    for (std::size_t i = 0; i < receivers_.size(); ++i) {
+        result_.values.push_back(Illuminance{all.values[i]});
+        result_.standard_errors.push_back(Illuminance{all.errors[i]});
+    }
+    result_.mean_standard_error = Illuminance{all.mean_error()};
+    result_.median_relative_error = median_relative(all.values, all.errors);
+}
+
+void GridRun::check()
+{
+    Teller teller(progress_, "check, grid " + grid_.name, checked_sensors);
+    add_bias(result_, {parts_.tracer, receivers_, mix_bits(settings_.seed), nullptr}, settings_.threads, teller);
+    fixed_rays_ += rays_.next();
+}
+
+GridResult GridRun::run()
+{
+    if (receivers_.empty())
+        return {};
+    const AmbientEffort effort = this->effort();
+    AmbientBuild ambient(parts_, effort, techniques_, stop_when_asked(progress_),
+                         plain() ? "" : settings_.ambient_file.file);
+    if (!plain())
+        build(ambient);
+    const SensorTask task = task_with(ambient);
+    PilotRun pilot(task, settings_.threads, progress_, grid_.name);
+    const double shared = refine(ambient, pilot, effort.deep.work);
+    fixed_rays_ += rays_.next();
+    result_.samples =
+        settings_.samples > 0 ? whole_replicates(settings_.samples) : pilot.samples_for(shared, settings_.accuracy);
+    RayCounts value_rays;
+    // A first look that the values go on from is no extra work.
+    (pilot.looked_at() <= result_.samples ? value_rays : fixed_rays_) += rays_.next();
+    measure(task, pilot);
+    value_rays += rays_.next();
+    if (!plain() || task.only_direct)
+        check();
+    result_.work = ambient.work();
+    result_.work.ambient_rays = ambient_rays_;
+    result_.work.fixed_rays = fixed_rays_;
+    result_.work.value_rays = value_rays;
+    result_.report = ambient.report();
+    return std::move(result_);
+}
+
 } // namespace
 
 GridResult Simulation::illuminance(const SensorGrid& grid, const GridSettings& settings, const Progress& progress) const
 {
     const auto start = std::chrono::steady_clock::now();
     check_accuracy(settings.accuracy, "grid " + grid.name);
-    std::vector<SurfacePlace> receivers;
-    for (const Sensor& sensor : grid.sensors)
-        receivers.push_back(receiver_of(sensor, parts_->box.diagonal()));
-    GridResult result;
-    if (receivers.empty())
-        return result;
-    Techniques techniques = settings.techniques;
-    techniques.cache = techniques.cache && receivers.size() >= many_sensors;
-    const std::optional<AmbientLimit>& limit = parts_->preparation.ambient_limit;
-    const bool plain =
-        settings.unbiased || !settings.techniques.deep_field || limit || parts_->plan.needs.only_direct();
-    const bool own_field = !plain && !techniques.cache && settings.ambient_file.file.empty();
-    AmbientEffort effort = effort_of(settings);
-    if (own_field)
-        effort.set_deep(std::min(first_deep * settings.accuracy, coarsest_deep));
-    double work = effort.deep.work;
-    AmbientBuild ambient(*parts_, effort, techniques, stop_when_asked(progress),
-                         plain ? "" : settings.ambient_file.file);
-    RayLaps rays;
-    RayCounts ambient_rays, fixed_rays;
-    if (!plain) {
-        progress.tell("ambient light, grid " + grid.name, 0);
-        ambient.build_deep(receivers.size(), from_sensors(receivers));
-        if (techniques.cache)
-            add_records(ambient, receivers);
-        ambient_rays += rays.next();
-    }
-    SensorTask task{plain ? parts_->tracer : ambient.tracer(), receivers, settings.seed,
-                    plain || techniques.cache ? nullptr : &ambient.deep()};
-    if (!settings.unbiased && (limit ? limit->bounces == 0 : parts_->plan.needs.only_direct()))
-        task.only_direct = limit ? limit->radiance * pi : Spectrum{};
-    result.samples = whole_replicates(settings.samples);
-    PilotRun pilot(task, settings.threads, progress, grid.name);
-    double shared = plain || (!own_field && settings.samples > 0) ? 0 : pilot.shared_error();
-    while (own_field && shared > most_shared * settings.accuracy && work < most_work) {
-        work = more_work(work, shared, settings.accuracy);
-        fixed_rays += rays.next();
-        ambient.refine_deep(work);
-        ambient_rays += rays.next();
-        shared = pilot.shared_error();
-    }
-    if (settings.samples <= 0)
-        result.samples = pilot.samples_for(shared, settings.accuracy);
-    fixed_rays += rays.next();
-    Teller teller(progress, "grid " + grid.name, receivers.size());
-    MeasuredSensors all =
-        measure_sensors(task, result.samples, every_of(1, receivers.size()), settings.threads, teller);
-    result.work = ambient.work();
-    result.work.ambient_rays = ambient_rays;
-    result.work.fixed_rays = fixed_rays;
-    result.work.value_rays = rays.next();
-    for (std::size_t i = 0; i < receivers.size(); ++i) {
-        result.values.push_back(Illuminance{all.values[i]});
-        result.standard_errors.push_back(Illuminance{all.errors[i]});
-    }
-    result.mean_standard_error = Illuminance{all.mean_error()};
-    result.median_relative_error = median_relative(all.values, all.errors);
-    if (!plain || task.only_direct) {
-        Teller check(progress, "check, grid " + grid.name, checked_sensors);
-        add_bias(result, {parts_->tracer, receivers, mix_bits(settings.seed), nullptr}, settings.threads, check);
-    }
-    result.work.fixed_rays += rays.next();
-    result.report = ambient.report();
+    GridResult result = GridRun(*parts_, grid, settings, progress).run();
     result.seconds = seconds_since(start);
     return result;
 }

@@ -13,62 +13,82 @@ constexpr std::uint64_t direct_salt = 0x64697265;
 /// Rays of ambient light to one test of the lamps: their light is found exactly where nothing is half hidden.
 constexpr std::uint32_t rays_a_test = 16;
 
+std::uint32_t each_of(int samples) noexcept
+{
+    return static_cast<std::uint32_t>(samples / replicates);
+}
+
+std::uint32_t tests_of(int samples) noexcept
+{
+    return std::max(1u, each_of(samples) / rays_a_test);
+}
+
 } // namespace
 
-std::array<double, replicates> SensorTask::operator()(std::size_t i, int samples, bool same_paths) const
+void SensorTask::extend(ReplicateSums& sums, std::size_t i, int samples, bool same_paths) const
 {
-    std::array<double, replicates> found{};
-    const auto each = static_cast<std::uint32_t>(samples / replicates);
     for (int r = 0; r < replicates; ++r) {
-        const std::uint64_t key = mix_bits(seed, static_cast<std::uint64_t>(same_paths ? 0 : r));
-        const Spectrum irradiance = only_direct       ? direct(i, key, each).irradiance + *only_direct
-                                    : deep != nullptr ? by_hemisphere(i, r, key, each)
-                                                      : by_paths(i, r, key, each);
-        found[static_cast<std::size_t>(r)] = illuminance_of(irradiance).value;
+        SensorSums& own = sums[static_cast<std::size_t>(r)];
+        const Which which{i, r, mix_bits(seed, static_cast<std::uint64_t>(same_paths ? 0 : r))};
+        if (deep != nullptr || only_direct)
+            test(own, which, tests_of(samples));
+        if (!only_direct)
+            follow(own, which, each_of(samples));
     }
-    return found;
 }
 
-SensorTask::Direct SensorTask::direct(std::size_t i, std::uint64_t key, std::uint32_t count) const
+bool SensorTask::within(const ReplicateSums& sums, int samples) noexcept
 {
-    const std::uint32_t tests = std::max(1u, count / rays_a_test);
-    Direct sum;
-    for (std::uint32_t n = 0; n < tests; ++n) {
-        PathRandom random(mix_bits(key, direct_salt), i, n);
-        const DirectIrradiance found = tracer.sensor_direct(places[i], random);
-        sum.irradiance += (found.lamps + found.suns) / tests;
-        sum.lamp_share += found.lamp_share / tests;
-    }
-    return sum;
+    return sums.front().paths <= each_of(samples) && sums.front().tests <= tests_of(samples);
 }
 
-Spectrum SensorTask::by_paths(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
+void SensorTask::test(SensorSums& sums, const Which& which, std::uint32_t tests) const
 {
-    Spectrum sum;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        PathRandom random(key, i, n);
-        sum += tracer.irradiance(places[i], replicate, random);
+    for (; sums.tests < tests; ++sums.tests) {
+        PathRandom random(mix_bits(which.key, direct_salt), which.sensor, sums.tests);
+        const DirectIrradiance found = tracer.sensor_direct(places[which.sensor], random);
+        sums.tested += found.lamps + found.suns;
+        sums.lamp_share += found.lamp_share;
     }
-    return sum / count;
 }
 
-Spectrum SensorTask::by_hemisphere(std::size_t i, int replicate, std::uint64_t key, std::uint32_t count) const
+void SensorTask::follow(SensorSums& sums, const Which& which, std::uint32_t paths) const
 {
-    const Direct tested = direct(i, key, count);
-    Spectrum ambient;
-    const Frame frame = frame_about(places[i].normal);
+    const SurfacePlace& place = places[which.sensor];
+    const Frame frame = frame_about(place.normal);
     std::vector<Dependence> dependences;
-    std::uint32_t others = 0;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        PathRandom random(key, i, n);
+    for (; sums.paths < paths; ++sums.paths) {
+        PathRandom random(which.key, which.sensor, sums.paths);
+        if (deep == nullptr) {
+            sums.arrived += tracer.irradiance(place, which.replicate, random);
+            continue;
+        }
         const Direction direction = hemisphere_direction(frame, random.pair());
         dependences.clear();
-        const Arrival arrival = tracer.arrive(places[i], direction, random, dependences);
-        ambient += arrival.irradiance + deep->sum(dependences, replicate);
-        others += arrival.met_lamp ? 0 : 1;
+        const Arrival arrival = tracer.arrive(place, direction, random, dependences);
+        sums.arrived += arrival.irradiance + deep->sum(dependences, which.replicate);
+        sums.other_paths += arrival.met_lamp ? 0 : 1;
     }
-    // How much of the hemisphere shows lamps is known better from the shadow rays than from these.
-    return tested.irradiance + (others > 0 ? ambient * ((1 - std::min(1.0, tested.lamp_share)) / others) : Spectrum{});
+}
+
+Spectrum SensorTask::irradiance(const SensorSums& sums) const
+{
+    if (only_direct)
+        return sums.tested / sums.tests + *only_direct;
+    if (deep == nullptr)
+        return sums.arrived / sums.paths;
+    // How much of the hemisphere shows lamps is known better from the shadow rays than from the others.
+    const double other_share = 1 - std::min(1.0, sums.lamp_share / sums.tests);
+    const Spectrum ambient = sums.other_paths > 0 ? sums.arrived * (other_share / sums.other_paths) : Spectrum{};
+    return sums.tested / sums.tests + ambient;
+}
+
+std::array<double, replicates> SensorTask::illuminance(const ReplicateSums& sums) const
+{
+    std::array<double, replicates> found{};
+    for (std::size_t r = 0; r < replicates; ++r)
+        found[r] = illuminance_of(irradiance(sums[r])).value;
+    return found;
 }
 
 void MeasuredSensors::set(std::size_t k, const std::array<double, replicates>& by_replicate)
@@ -94,14 +114,24 @@ double MeasuredSensors::mean_error() const
 }
 
 MeasuredSensors measure_sensors(const SensorTask& task, int samples, std::vector<std::size_t> sensors, int threads,
-                                Teller& teller, bool same_paths)
+                                Teller& teller, BegunSensors* begun, bool same_paths)
 {
     const std::size_t count = sensors.size();
     MeasuredSensors measured{std::move(sensors), std::vector<std::array<double, replicates>>(count),
                              std::vector<double>(count), std::vector<double>(count)};
     parallel_for(count, threads, [&](std::size_t k) {
         teller.check();
-        measured.set(k, task(measured.sensors[k], samples, same_paths));
+        const std::size_t sensor = measured.sensors[k];
+        ReplicateSums* kept = begun != nullptr ? begun->of(sensor) : nullptr;
+        ReplicateSums sums;
+        // What stands for more samples than are wanted would make one sensor finer than the same run without a first
+        // look.
+        if (kept != nullptr && SensorTask::within(*kept, samples))
+            sums = *kept;
+        task.extend(sums, sensor, samples, same_paths);
+        measured.set(k, task.illuminance(sums));
+        if (kept != nullptr)
+            *kept = sums;
         teller.done_one();
     });
     return measured;
