@@ -28,7 +28,7 @@ constexpr const char* examples = R"(Examples:
   lightwell tradeoff room.rad --view desk --size 160x90 -o trade --reference 600
 Writes trade.csv and trade.svg: error (RMS, mean bias, 95th percentile, maximum; relative) against CPU time for settings
 from coarse to fine, each technique off in turn, and rtrace or rpict where they are on the PATH; marks the cheapest
-setting that reached 1, 3, 5 and 10 %. The reference is unbiased path tracing; its own error is stated.)";
+setting that reached 1, 3, 5 and 10 %. --peer-file draws what other programs were measured to answer. The reference is unbiased path tracing; its own error is stated.)";
 
 void write_text(const std::filesystem::path& file, const std::string& text)
 {
@@ -98,6 +98,10 @@ void add_tradeoff(CLI::App& app, Status& status)
                     "CPU seconds after which a run of another program is ended (default 300)")
         ->check(CLI::PositiveNumber)
         ->type_name("SECONDS");
+    command
+        .add_option("--peer-file", options->settings.peer_file,
+                    "answers of further programs: program,setting,cpu_s,wall_s,values a line")
+        ->type_name("FILE");
     command.add_flag("--no-peers", options->no_peers, "leave other programs out");
     command.footer(examples);
     command.callback([options, &status] { status = tradeoff(*options, std::cout, std::cerr); });

@@ -1,10 +1,12 @@
 #include "plugins/insight/peers.h"
 
 #include "engine/base/errors.h"
+#include "engine/base/text.h"
 #include "engine/pictures/rgbe.h"
 #include "importers/radiance/radiance.h"
 #include "plugins/insight/child_run.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
@@ -44,7 +46,53 @@ std::string ending(const ChildResult& result)
     return result.last_words.empty() ? how : how + ": " + result.last_words;
 }
 
+double number_of(std::string_view word, const std::string& place, bool may_be_negative)
+{
+    const std::optional<double> number = parse_double(trimmed(word));
+    if (!number || !std::isfinite(*number) || (*number < 0 && !may_be_negative))
+        throw InputError{place,
+                         "\"" + std::string(word) + "\" is no finite number" + (may_be_negative ? "" : " from 0"),
+                         "expected program,setting,cpu_s,wall_s,values"};
+    return *number;
+}
+
+PeerRun run_of(const std::string& line, const std::string& place, std::size_t count)
+{
+    constexpr std::size_t before_values = 4;
+    const std::vector<std::string_view> words = split(line, ",");
+    if (words.size() != before_values + count)
+        throw InputError{place,
+                         fmt::format("has {} values after program, setting and times, expected {}",
+                                     words.size() < before_values ? 0 : words.size() - before_values, count),
+                         "one for each sensor or pixel of this very grid or view"};
+    PeerRun run;
+    run.program = trimmed(words[0]);
+    run.setting = trimmed(words[1]);
+    run.cpu_s = number_of(words[2], place, false);
+    run.wall_s = number_of(words[3], place, false);
+    for (std::size_t i = before_values; i < words.size(); ++i)
+        run.values.push_back(number_of(words[i], place, true));
+    return run;
+}
+
 } // namespace
+
+std::vector<PeerRun> read_peer_runs(const std::filesystem::path& file, std::size_t count)
+{
+    std::ifstream stream(file);
+    if (!stream)
+        throw InputError{file.string(), "cannot be read", "is it there?"};
+    std::vector<PeerRun> runs;
+    std::size_t number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        if (!trimmed(line).empty() && line[0] != '#')
+            runs.push_back(run_of(line, fmt::format("{}:{}", file.string(), number), count));
+    }
+    if (runs.empty())
+        throw InputError{file.string(), "has no run in it", "a line each: program,setting,cpu_s,wall_s,values"};
+    return runs;
+}
 
 RadiancePeers::RadiancePeers(const Scene& scene, double most_cpu_s) : most_cpu_s_(most_cpu_s)
 {

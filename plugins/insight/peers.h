@@ -17,6 +17,12 @@ struct PeerRun {
     std::string failure;        ///< empty: it answered
 };
 
+/// What other programs answered when they were run elsewhere, from a file: a line each with program, setting, CPU
+/// seconds, seconds and all values in the order of the sensors, or of the pixels row by row from the top; `#` begins a
+/// comment.
+/// @throws InputError: no file, a number that is none or not finite, another count of values than `count`
+std::vector<PeerRun> read_peer_runs(const std::filesystem::path& file, std::size_t count);
+
 /// The scene written once for programs of the Radiance family that are on the PATH, and their runs at three qualities
 /// each. Making their octree is not counted, as reading the file is not for us.
 class RadiancePeers {

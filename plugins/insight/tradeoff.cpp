@@ -24,6 +24,7 @@ struct Found {
 /// A grid or a view, and how to run it.
 struct Subject {
     std::string name, unit;
+    std::size_t count = 0; ///< of values
     /// @param samples  0: chosen from the accuracy
     std::function<Found(const Simulation&, double accuracy, int samples, bool unbiased, const Techniques&)> run;
     std::function<PeerRun(const RadiancePeers&, int quality)> peer;
@@ -143,6 +144,9 @@ void add_peers(const Scene& scene, const Subject& subject, const TradeSettings& 
 Tradeoff measure(const Scene& scene, const Subject& subject, const TradeSettings& settings, const Progress& progress)
 {
     Tradeoff tradeoff{subject.name, subject.unit, {}, {}};
+    std::vector<PeerRun> elsewhere; // read before an hour is spent
+    if (!settings.peer_file.empty())
+        elsewhere = read_peer_runs(settings.peer_file, subject.count);
     progress.tell("reference", 0);
     tradeoff.reference = find_reference(scene, subject, settings);
     std::vector<std::pair<double, std::string>> runs;
@@ -158,6 +162,8 @@ Tradeoff measure(const Scene& scene, const Subject& subject, const TradeSettings
     }
     if (settings.peers)
         add_peers(scene, subject, settings, tradeoff, progress);
+    for (const PeerRun& run : elsewhere)
+        tradeoff.points.push_back(point_of(run, tradeoff.reference));
     choose_settings(tradeoff);
     return tradeoff;
 }
@@ -212,6 +218,7 @@ Tradeoff measure_tradeoff(const Scene& scene, const SensorGrid& grid, const Trad
     Subject subject;
     subject.name = fmt::format("grid {}, {} sensors", grid.name, grid.sensors.size());
     subject.unit = "lx";
+    subject.count = grid.sensors.size();
     subject.run = [&](const Simulation& simulation, double accuracy, int samples, bool unbiased,
                       const Techniques& techniques) {
         GridSettings wish;
@@ -239,6 +246,7 @@ Tradeoff measure_tradeoff(const Scene& scene, const View& view, int width, int h
     Subject subject;
     subject.name = fmt::format("view {}, {} x {}", view.name, width, height);
     subject.unit = "cd/m2";
+    subject.count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     subject.run = [&](const Simulation& simulation, double accuracy, int samples, bool unbiased,
                       const Techniques& techniques) {
         PictureSettings wish;

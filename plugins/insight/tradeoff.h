@@ -4,6 +4,7 @@
 #include "engine/simulate/simulate.h"
 #include "plugins/insight/chart.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,7 @@ struct TradeSettings {
     double technique_accuracy = 0.05; ///< at which techniques are switched off one by one
     bool peers = true;                ///< run rtrace, rpict where they are on the PATH
     double peer_cpu_s = 300;          ///< after which one of them is ended
+    std::filesystem::path peer_file;  ///< answers of further programs, see read_peer_runs(); may be empty
     std::uint64_t seed = 1;
     int threads = 0;
     Preparation preparation = {};

@@ -13,14 +13,18 @@ namespace {
 constexpr const char* style = R"(<style>
 body{font:16px/1.5 system-ui,sans-serif;color:#222;background:#fff;margin:0 auto;max-width:1100px;padding:1rem}
 h1{font-size:1.7rem;margin:.5rem 0}h2{font-size:1.3rem;margin:2rem 0 .5rem}
-svg{width:100%;min-width:36rem;height:auto;display:block}
+svg{width:100%;height:auto;display:block}
 .wide{overflow-x:auto}
 table{border-collapse:collapse;font-size:.85rem;white-space:nowrap}
 th,td{padding:.2rem .6rem;border-bottom:1px solid #ddd;text-align:right}
 th:first-child,td:first-child,th:nth-child(2),td:nth-child(2){text-align:left}
+.rows td:nth-child(2),.rows td:last-child{white-space:normal;min-width:8rem;max-width:16rem;overflow-wrap:anywhere}
 thead th{position:sticky;top:0;background:#fff}
 .bad{background:#fde3d6;font-weight:bold}
 .sum{font-size:1.1rem}
+@media(max-width:600px){table{font-size:.7rem}th,td{padding:.2rem .2rem}h1{font-size:1.3rem}
+.rows td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:5.6rem}.rows td:nth-child(2),.rows td:last-child{min-width:0}
+.rows :is(th,td):is(:nth-child(5),:nth-child(6),:nth-child(7),:nth-child(8),:nth-child(9)){display:none}}
 @media(prefers-color-scheme:dark){body{background:#fff;color:#222}}
 </style>)";
 
@@ -141,7 +145,8 @@ std::string sky_map(const std::vector<ValidationRow>& rows)
 std::string row_table(const std::vector<ValidationRow>& rows)
 {
     std::string text =
-        "<h2>Every row</h2>\n<div class=\"wide\"><table><thead><tr><th>case</th><th>quantity</th><th>expected"
+        "<h2>Every row</h2>\n<div class=\"wide\"><table "
+        "class=\"rows\"><thead><tr><th>case</th><th>quantity</th><th>expected"
         "</th><th>found</th><th>&plusmn; 95 %</th><th>unit</th><th>deviation</th><th>tolerance</th><th>of "
         "allowed</th><th>verdict</th></tr></thead><tbody>\n";
     const auto relative = [](double part, double whole) {

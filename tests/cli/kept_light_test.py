@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from cli_test import BAD_INPUT, DONE, PROGRAM, USAGE, Case
+from case import BAD_INPUT, DONE, PROGRAM, USAGE, Case
 from scenes import ROOM_RAD, VIEW
 
 OTHER_VIEW = "-vtv -vp 0.8 0.4 1.4 -vd 0.6 0.7 -0.2 -vu 0 0 1 -vh 60 -vv 45"  # sees much of what VIEW sees

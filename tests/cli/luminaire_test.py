@@ -7,7 +7,7 @@ import pathlib
 import struct
 import unittest
 
-from cli_test import BAD_INPUT, DONE, Case
+from case import BAD_INPUT, DONE, Case
 from scenes import face_dxf
 
 

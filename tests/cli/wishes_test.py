@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from cli_test import BAD_INPUT, DONE, PROGRAM, USAGE, Case
+from case import BAD_INPUT, DONE, PROGRAM, USAGE, Case
 from scenes import VIEW
 
 GRID = "plane:0.8,0,0,4,3/0.5"

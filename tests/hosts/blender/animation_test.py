@@ -21,7 +21,8 @@ class Animation(InBlender):
         depths = [self.picture(f"{name}{frame:04}")["ViewLayer.Depth.Z"] for name in ("camera", "desk") for frame in (1, 2)]
         self.assertGreater(float(np.abs(depths[0] - depths[1]).max()), 0.1)  # the camera has moved
         self.assertGreater(float(np.abs(depths[1] - depths[3]).max()), 0.3)  # the desk has, too
-        np.testing.assert_allclose(depths[0], depths[2], rtol=0.05)
+        other = np.abs(depths[0] / depths[2] - 1) > 0.05
+        self.assertLess(float(other.mean()), 0.005)  # at edges, a pixel's paths share it out otherwise
 
     def test_a_frame_has_the_light_of_a_still(self):
         frame, still = (self.picture(name)["ViewLayer.Illuminance.X"] for name in ("desk0002", "still0002"))

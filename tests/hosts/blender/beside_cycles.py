@@ -29,7 +29,7 @@ class Beside(InBlender):
     def pictures(self, width, how):
         height = round(width * 0.625)
         self.answer = self.blender("inside_cycles.py", width, height, LIGHTWELL_SAMPLES, CYCLES_SAMPLES, how, file=OFFICE)
-        return exr.read(self.path / "lightwell.exr")[1], exr.read(self.path / "cycles.exr")[1]
+        return exr.read(self.path / "lightwell.exr")[1], exr.read(self.path / f"cycles_{CYCLES_SAMPLES}.exr")[1]
 
 
 def colours(channels):

@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "plugins/insight/child_run.h"
+#include "plugins/insight/peers.h"
 
 #include <gtest/gtest.h>
 
@@ -80,6 +81,51 @@ TEST(Tradeoff, RunsSettingsAndTechniquesAgainstAReferenceThatStatesItsError)
     const std::string csv = tradeoff_csv(t);
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), t.points.size() + 2);
     EXPECT_NE(chart_svg(tradeoff_chart(t, "room")).find("CPU time (s)"), std::string::npos);
+}
+
+std::filesystem::path peer_file(const std::string& text)
+{
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "peer_runs_test.csv";
+    std::ofstream(file) << text;
+    return file;
+}
+
+TEST(PeerRuns, OfAFileStandBesideOurOwn)
+{
+    const auto runs =
+        read_peer_runs(peer_file("# program,setting\nCycles,16,1.5,0.75,10,20\n\nCycles,32,3,1.5,11, 21\n"), 2);
+    ASSERT_EQ(runs.size(), 2u);
+    EXPECT_EQ(runs[0].program, "Cycles");
+    EXPECT_EQ(runs[1].setting, "32");
+    EXPECT_EQ(runs[0].cpu_s, 1.5);
+    EXPECT_EQ(runs[1].values, (std::vector<double>{11, 21}));
+
+    SensorGrid grid;
+    grid.sensors.push_back({{0, 0, -1}, {0, 0, 1}});
+    TradeSettings settings;
+    settings.reference_cpu_s = 0.1;
+    settings.accuracies = {0.1};
+    settings.peers = false;
+    settings.peer_file = peer_file("Cycles,16,1.5,0.75,0\n");
+    const Tradeoff t = measure_tradeoff(small_room(), grid, settings);
+    EXPECT_EQ(t.points.back().program, "Cycles");
+    EXPECT_NEAR(t.points.back().error.rms, 1, 1e-12); // black, where light is
+    EXPECT_EQ(t.points.back().cpu_s, 1.5);
+}
+
+TEST(PeerRuns, ThatDoNotFitAreRefusedWithTheirLine)
+{
+    for (const char* text : {"", "# nothing\n", "Cycles,16,1,1,10\n", "Cycles,16,1,1,10,20,30\n", "Cycles\n",
+                             "Cycles,16,1,1,10,bright\n", "Cycles,16,1,1,10,nan\n", "Cycles,16,-1,1,10,20\n"})
+        EXPECT_THROW(read_peer_runs(peer_file(text), 2), InputError) << text;
+    EXPECT_THROW(read_peer_runs("/no/such/file", 2), InputError);
+    try {
+        read_peer_runs(peer_file("# first\nCycles,16,1,1,10\n"), 2);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("peer_runs_test.csv:2: has 1 values"), std::string::npos)
+            << error.what();
+    }
 }
 
 TEST(Tradeoff, ASceneWithoutLightSaysSo)
