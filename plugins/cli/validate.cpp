@@ -45,7 +45,8 @@ void print_json(const std::vector<ValidationRow>& rows, const ValidateOptions& o
                         {"deviation", row.deviation()},
                         {"tolerance", row.tolerance},
                         {"passed", row.passed},
-                        {"reason", row.reason}});
+                        {"reason", row.reason},
+                        {"cpu_seconds", row.cpu_s}});
     nlohmann::ordered_json result{{"version", program_version()},
                                   {"full", options.validation.full},
                                   {"seed", options.validation.seed},

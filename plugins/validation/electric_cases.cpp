@@ -195,7 +195,6 @@ Case reflected_case(const std::string& name, double low, double high)
         check.names.emplace_back(1, names[i]);
     }
     check.only_full = high < 3;
-    check.method = Method::usual;
     setup.checks = {check};
     return {"cie171_diffuse_reflection_" + name, Technique::direct | Technique::interreflection, {setup}};
 }

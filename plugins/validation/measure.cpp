@@ -1,7 +1,13 @@
 #include "plugins/validation/measure.h"
 
+#include "plugins/validation/refinement.h"
+
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <ctime>
+#include <map>
+#include <numeric>
 
 namespace lightwell {
 namespace {
@@ -9,202 +15,152 @@ namespace {
 /// Student's t for a two-sided 95 % interval with 7 degrees of freedom: 8 replicates stand behind each value.
 constexpr double t_95 = 2.365;
 constexpr double detection_tolerance = 0.005, detection_error = 0.001;
-/// The standard error is itself known to a quarter only: the next attempt aims lower than is asked.
-constexpr double aim = 0.8;
-
-struct Measurement {
-    double value, error;
-};
-
-/// How much work: samples, or with ambient light kept in between, an accuracy.
-struct Work {
-    int samples = 0;
-    double accuracy = 0;
-};
-
-GridSettings grid_settings(const Work& work, std::uint64_t seed)
-{
-    GridSettings settings;
-    settings.samples = work.samples;
-    settings.seed = seed;
-    settings.threads = 1; // the cases run side by side
-    settings.unbiased = work.accuracy <= 0;
-    if (work.accuracy > 0)
-        settings.accuracy = work.accuracy;
-    return settings;
-}
-
-Measurement measure_sensors(const Simulation& simulation, const Check& check, const Work& work, std::uint64_t seed)
-{
-    SensorGrid grid;
-    for (const WeightedSensor& s : check.sensors)
-        grid.sensors.push_back(s.sensor);
-    const GridResult result = simulation.illuminance(grid, grid_settings(work, seed));
-    double value = 0, squares = 0;
-    for (std::size_t i = 0; i < check.sensors.size(); ++i) {
-        value += check.sensors[i].weight * result.values[i].value;
-        squares += std::pow(check.sensors[i].weight * result.standard_errors[i].value, 2);
-    }
-    return {value, std::sqrt(squares)};
-}
-
-Measurement measure_view(const Simulation& simulation, const Check& check, int samples, std::uint64_t seed)
-{
-    PictureSettings settings;
-    settings.width = settings.height = 1;
-    settings.samples = samples;
-    settings.seed = seed;
-    settings.threads = 1;
-    settings.unbiased = true;
-    const Picture picture = simulation.render(*check.view, settings).picture;
-    // All scenes are grey, so that one channel is the whole.
-    return {lumens_per_watt * picture.at("G", 0, 0), lumens_per_watt * picture.at("error.G", 0, 0)};
-}
-
-Measurement measure(const Simulation& simulation, const Check& check, int samples, std::uint64_t seed)
-{
-    return check.view ? measure_view(simulation, check, samples, seed)
-                      : measure_sensors(simulation, check, {samples}, seed);
-}
 
 /// Where a path ends in one of two ways, well-spread samples hit the share of each way to one sample, all replicates
 /// alike: their spread says nothing about that step, which must be small by itself.
-int first_samples(const Check& check, const ValidationOptions& options)
+double least_samples(const Check& check, const ValidationOptions& options)
 {
     if (check.view && check.exact)
         return 1 << 10;
     if (check.view)
         return options.full ? 1 << 19 : 1 << 16;
-    return 1 << 12;
-}
-
-/// To a power of two; where samples are many, and their number costs minutes, also to one and a half of one.
-int round_up(unsigned samples)
-{
-    constexpr unsigned many = 1U << 19;
-    const unsigned whole = std::bit_ceil(samples), less = whole / 4 * 3;
-    return static_cast<int>(samples > many && less >= samples ? less : whole);
-}
-
-/// More samples until the standard error is as wanted, or too dear.
-Measurement refine(const Simulation& simulation, const Check& check, double wanted_error,
-                   const ValidationOptions& options)
-{
-    // A mean over many sensors needs few samples at each.
-    const int share = static_cast<int>(std::bit_floor(std::max<std::size_t>(1, check.sensors.size())));
-    const int most = std::max((options.full ? 1 << 26 : 1 << 22) / share, 64);
-    int samples = std::max(first_samples(check, options) / share, 64);
-    for (;;) {
-        const Measurement found = measure(simulation, check, samples, options.seed);
-        if (found.error <= wanted_error || samples >= most)
-            return found;
-        const double ratio = found.error / (aim * wanted_error);
-        const double wanted = samples * std::clamp(ratio * ratio, 2.0, 64.0);
-        samples = round_up(static_cast<unsigned>(std::min<double>(wanted, most)));
-    }
-}
-
-/// The engine as it is used, asked for more until its standard error is as wanted.
-Measurement refine_usual(const Simulation& simulation, const Check& check, double wanted_error,
-                         const ValidationOptions& options)
-{
-    constexpr int most_tries = 5;
-    double accuracy = std::min(0.1, aim * wanted_error / std::fabs(check.expected));
-    for (int attempt = 1;; ++attempt) {
-        const Measurement found = measure_sensors(simulation, check, {0, accuracy}, options.seed);
-        if (found.error <= wanted_error || attempt == most_tries)
-            return found;
-        accuracy *= std::min(0.5, aim * wanted_error / found.error);
-    }
-}
-
-/// One sensor of a check of each.
-struct Single {
-    double expected, tolerance, wanted;
-    Measurement found{0, infinity};
-    double allowed() const { return tolerance + 3 * found.error; }
-    /// 1 and more: does not agree.
-    double strain() const { return std::fabs(found.value - expected) / allowed(); }
-};
-
-/// All those that are not known well enough yet, with one work for all.
-void measure_again(const Simulation& simulation, const Check& check, const Work& work, std::uint64_t seed,
-                   std::vector<Single>& singles)
-{
-    SensorGrid grid;
-    std::vector<std::size_t> which;
-    for (std::size_t i = 0; i < singles.size(); ++i)
-        if (!(singles[i].found.error <= singles[i].wanted)) {
-            grid.sensors.push_back(check.sensors[i].sensor);
-            which.push_back(i);
-        }
-    if (which.empty())
-        return;
-    const GridResult result = simulation.illuminance(grid, grid_settings(work, seed));
-    for (std::size_t k = 0; k < which.size(); ++k) {
-        const double weight = check.sensors[which[k]].weight;
-        singles[which[k]].found = {weight * result.values[k].value, weight * result.standard_errors[k].value};
-    }
-}
-
-/// Largest standard error in units of the wanted one.
-double noisiest(const std::vector<Single>& singles)
-{
-    double ratio = 0;
-    for (const Single& single : singles)
-        ratio = std::max(ratio, single.found.error / single.wanted);
-    return ratio;
+    return check.each.empty() ? 1 << 12 : 1 << 11;
 }
 
 /// Least relative standard error that is wanted.
-double least_wanted(const std::vector<Single>& singles)
+double least_wanted(const std::vector<WantedQuantity>& quantities)
 {
     double least = 1;
-    for (const Single& single : singles)
-        if (single.expected != 0)
-            least = std::min(least, single.wanted / std::fabs(single.expected));
+    for (const WantedQuantity& quantity : quantities)
+        if (quantity.expected != 0)
+            least = std::min(least, quantity.wanted / std::fabs(quantity.expected));
     return least;
 }
 
-/// How many times as many samples the noisiest of them asks for: the error of well-spread samples falls about as their
-/// number to the power of 0.8.
-int more_samples(const std::vector<Single>& singles)
+WorkRange range_of(const Check& check, const std::vector<WantedQuantity>& quantities, const ValidationOptions& options)
 {
-    constexpr double samples_per_error = 1.25;
-    constexpr double most = 16;
-    const double wanted = std::clamp(std::pow(noisiest(singles) / aim, samples_per_error), 2.0, most);
-    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(wanted))));
+    if (check.method == Method::usual) {
+        // The accuracy asked for is that of the median place; the noisiest follow it more slowly than samples would.
+        constexpr double coarsest = 0.1, pilot_part = 1.0 / 9, finest_part = 8, follow = 1;
+        const double accuracy = std::min(coarsest, refinement_aim * least_wanted(quantities));
+        const double least = 1 / (accuracy * accuracy);
+        return {least * pilot_part, least, least * finest_part, follow, true};
+    }
+    // A mean over many sensors needs few samples at each.
+    const double share =
+        check.each.empty() ? static_cast<double>(std::bit_floor(std::max<std::size_t>(1, check.sensors.size()))) : 1;
+    constexpr double fewest = 64, pilot_part = 1.0 / 16;
+    constexpr double most_of_each = 1 << 21;
+    const double most = !check.each.empty() ? most_of_each : options.full ? 1 << 26 : 1 << 22;
+    const double least = std::max(least_samples(check, options) / share, fewest);
+    // The error of well-spread samples falls as their number to the power of 0.5 to 0.8.
+    constexpr double well_spread = 1.5;
+    return {std::max(least * pilot_part, fewest), least, std::max(most / share, least), well_spread, false};
+}
+
+/// The engine asked for all or some quantities of one check.
+class Probe {
+public:
+    Probe(const Simulation& simulation, const Check& check, std::uint64_t seed)
+        : simulation_(simulation), check_(check), seed_(seed)
+    {
+    }
+
+    /// Samples of no run are those of another.
+    std::vector<MeasuredValue> measure(const std::vector<std::size_t>& which, double work)
+    {
+        // An odd number far from 0 keeps the runs' seeds apart from those of users, who count from 1.
+        constexpr std::uint64_t apart = 0x9E3779B97F4A7C15;
+        const std::uint64_t seed = seed_ + apart * runs_++;
+        if (check_.view)
+            return {of_view(static_cast<int>(work), seed)};
+        return check_.each.empty() ? std::vector<MeasuredValue>{of_sum(work, seed)} : of_each(which, work, seed);
+    }
+
+private:
+    GridSettings settings(double work, std::uint64_t seed) const
+    {
+        GridSettings settings;
+        settings.seed = seed;
+        settings.threads = 1; // the cases run side by side
+        settings.unbiased = check_.method == Method::plain;
+        if (settings.unbiased)
+            settings.samples = static_cast<int>(work);
+        else
+            settings.accuracy = 1 / std::sqrt(work);
+        return settings;
+    }
+
+    MeasuredValue of_view(int samples, std::uint64_t seed) const
+    {
+        PictureSettings settings;
+        settings.width = settings.height = 1;
+        settings.samples = samples;
+        settings.seed = seed;
+        settings.threads = 1;
+        settings.unbiased = true;
+        const Picture picture = simulation_.render(*check_.view, settings).picture;
+        // All scenes are grey, so that one channel is the whole.
+        return {lumens_per_watt * picture.at("G", 0, 0), lumens_per_watt * picture.at("error.G", 0, 0)};
+    }
+
+    std::vector<MeasuredValue> of_each(const std::vector<std::size_t>& which, double work, std::uint64_t seed) const
+    {
+        SensorGrid grid;
+        for (const std::size_t i : which)
+            grid.sensors.push_back(check_.sensors[i].sensor);
+        const GridResult result = simulation_.illuminance(grid, settings(work, seed));
+        std::vector<MeasuredValue> found;
+        for (std::size_t k = 0; k < which.size(); ++k) {
+            const double weight = check_.sensors[which[k]].weight;
+            found.push_back({weight * result.values[k].value, weight * result.standard_errors[k].value});
+        }
+        return found;
+    }
+
+    MeasuredValue of_sum(double work, std::uint64_t seed) const
+    {
+        std::vector<std::size_t> all(check_.sensors.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        double value = 0, squares = 0;
+        for (const MeasuredValue& part : of_each(all, work, seed)) {
+            value += part.value;
+            squares += part.error * part.error;
+        }
+        return {value, std::sqrt(squares)};
+    }
+
+    const Simulation& simulation_;
+    const Check& check_;
+    std::uint64_t seed_, runs_ = 0;
+};
+
+void refine(const Simulation& simulation, const Check& check, const ValidationOptions& options,
+            std::vector<WantedQuantity>& quantities)
+{
+    Probe probe(simulation, check, options.seed);
+    refine_by([&](const std::vector<std::size_t>& which, double work) { return probe.measure(which, work); },
+              range_of(check, quantities, options), quantities);
 }
 
 /// Each sensor until it is known well enough; the row shows the one under most strain.
 ValidationRow run_each(const Simulation& simulation, const Check& check, const ValidationOptions& options)
 {
-    std::vector<Single> singles;
+    std::vector<WantedQuantity> quantities;
     for (const double expected : check.each) {
         const double full = check.tolerance + check.tolerance_part * std::fabs(expected);
         const double tolerance = options.full ? full : std::max(full, check.quick_relative * std::fabs(expected));
-        singles.push_back({expected, tolerance, tolerance / 3});
+        quantities.push_back({expected, tolerance, tolerance / 3});
     }
-    if (check.method == Method::usual) {
-        constexpr int most_tries = 5;
-        double accuracy = aim * least_wanted(singles);
-        for (int attempt = 1; attempt <= most_tries; ++attempt) {
-            measure_again(simulation, check, {0, accuracy}, options.seed, singles);
-            accuracy *= std::clamp(aim / noisiest(singles), 0.3, 0.8);
-        }
-    } else {
-        constexpr int first = 1 << 9, most = 1 << 21;
-        for (int samples = first; samples <= most; samples *= more_samples(singles))
-            measure_again(simulation, check, {samples}, options.seed, singles);
-    }
+    refine(simulation, check, options, quantities);
     std::size_t worst = 0;
     bool fine = true;
-    for (std::size_t i = 0; i < singles.size(); ++i) {
-        fine = fine && singles[i].found.error <= singles[i].wanted;
-        if (singles[i].strain() > singles[worst].strain())
+    for (std::size_t i = 0; i < quantities.size(); ++i) {
+        fine = fine && quantities[i].found.error <= quantities[i].wanted;
+        if (quantities[i].strain() > quantities[worst].strain())
             worst = i;
     }
-    const Single& shown = singles[worst];
+    const WantedQuantity& shown = quantities[worst];
     ValidationRow row;
     row.quantity = check.quantity + ", worst: " + check.names[worst];
     row.unit = check.unit;
@@ -219,10 +175,17 @@ ValidationRow run_each(const Simulation& simulation, const Check& check, const V
 
 } // namespace
 
-ValidationRow run_check(const Simulation& simulation, const Check& check, const ValidationOptions& options)
+namespace {
+
+double thread_cpu_s()
 {
-    if (!check.each.empty())
-        return run_each(simulation, check, options);
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+ValidationRow run_one(const Simulation& simulation, const Check& check, const ValidationOptions& options)
+{
     ValidationRow row;
     row.quantity = check.quantity;
     row.unit = check.unit;
@@ -236,8 +199,9 @@ ValidationRow run_check(const Simulation& simulation, const Check& check, const 
         row.tolerance = std::max(check.tolerance, check.quick_relative * size);
     const double affordable = row.tolerance / 3;
     const double wanted = check.detection && options.full ? std::min(affordable, detection_error * size) : affordable;
-    const Measurement found = check.method == Method::usual ? refine_usual(simulation, check, wanted, options)
-                                                            : refine(simulation, check, wanted, options);
+    std::vector<WantedQuantity> quantities{{check.expected, row.tolerance, wanted}};
+    refine(simulation, check, options, quantities);
+    const MeasuredValue found = quantities[0].found;
     row.found = found.value;
     row.half_width_95 = t_95 * found.error;
     const bool fine = found.error <= affordable;
@@ -247,6 +211,16 @@ ValidationRow run_check(const Simulation& simulation, const Check& check, const 
         row.reason = "deviates";
     else if (!fine)
         row.reason = "too noisy to tell";
+    return row;
+}
+
+} // namespace
+
+ValidationRow run_check(const Simulation& simulation, const Check& check, const ValidationOptions& options)
+{
+    const double before_s = thread_cpu_s();
+    ValidationRow row = check.each.empty() ? run_one(simulation, check, options) : run_each(simulation, check, options);
+    row.cpu_s = thread_cpu_s() - before_s;
     return row;
 }
 

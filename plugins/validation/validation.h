@@ -42,6 +42,7 @@ struct ValidationRow {
     bool detection = false;   ///< fine enough to notice an error of 2 % in each technique it contains
     bool passed = false;
     std::string reason; ///< why it did not pass
+    double cpu_s = 0;   ///< processor seconds of its measurement
 
     double deviation() const noexcept { return found - expected; }
 };
