@@ -15,6 +15,8 @@ namespace lightwell {
 struct AmbientLimit {
     int bounces = 0;   ///< diffuse scatterings that are followed, >= 0
     Spectrum radiance; ///< W/(m^2 sr), arriving from everywhere where no more are
+    /// Rough highlights of at most this specularity are diffuse but for the light of lamps and suns.
+    double unsampled_specularity = 0;
 };
 
 /// Where a tracer finds ambient light instead of scattering diffusely: records where the eye looks, the deep field

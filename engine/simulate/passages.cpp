@@ -20,14 +20,16 @@ Spectrum power(const Spectrum& s, double exponent)
     return {std::pow(s.r, exponent), std::pow(s.g, exponent), std::pow(s.b, exponent)};
 }
 
-/// The diffuse material that stands for one with functions where other programs ask the functions for the light of
-/// lamps and suns alone. Its patterns are in the colour already.
-std::optional<Material> stand_in(const Material& material)
+/// The diffuse material that stands for one with functions, or with a slight highlight, where other programs ask these
+/// for the light of lamps and suns alone. Patterns are in the colours already.
+std::optional<Material> stand_in(const Material& material, const AmbientLimit& limit)
 {
-    const auto* m = std::get_if<Functional>(&material);
-    if (m == nullptr || m->kind == Functional::Kind::BRTDfunc)
-        return {};
-    return Trans{m->colour, 0, 0, m->transmission * (1 - m->specularity), 0};
+    if (const auto* m = std::get_if<Functional>(&material); m != nullptr && m->kind != Functional::Kind::BRTDfunc)
+        return Trans{m->colour, 0, 0, m->transmission * (1 - m->specularity), 0};
+    const auto* m = std::get_if<Plastic>(&material);
+    if (m != nullptr && m->roughness > 0 && m->specularity > 0 && m->specularity <= limit.unsampled_specularity)
+        return Plastic{m->colour * (1 - m->specularity) + Spectrum::grey(m->specularity), 0, 0};
+    return {};
 }
 
 } // namespace
@@ -195,7 +197,7 @@ bool PathTracer::add_constant(Walk& walk, const Lobes& lobes) const
 bool PathTracer::scatter_within_limit(Walk& walk, const Vertex& vertex, const Material& material,
                                       PathRandom& random) const
 {
-    if (const std::optional<Material> plain = stand_in(material)) {
+    if (const std::optional<Material> plain = stand_in(material, *ambient_.limit)) {
         gather_plainly(walk, vertex, {walk.at_first ? seen_rays : later_rays, {true, true, false}, LobeSet::all, true},
                        random);
         const Vertex instead(vertex.hit, walk.ray.direction, *plain);

@@ -210,6 +210,22 @@ TEST(AmbientLimit, TakesFunctionsForDiffuseInAllLightButThatOfLamps)
     EXPECT_NEAR(seen_radiance(metal + beam, {0, 0, 4}, limited(0)) / ((0.3 / pi + 0.3 * 0.2) * irradiance), 1, 1e-3);
 }
 
+TEST(AmbientLimit, TakesSlightHighlightsForDiffuseInAllLightButThatOfLamps)
+{
+    // Red, so that the highlight, which keeps the colour of the light, shows in green.
+    const std::string varnish = "void plastic varnish 0 0 5 .5 .1 .1 .02 .1\nvarnish ring r 0 0 8 0 0 0 0 0 1 0 9\n";
+    Preparation slight = limited(0, 3), strict = limited(0, 3);
+    slight.ambient_limit->unsampled_specularity = 0.02;
+    strict.ambient_limit->unsampled_specularity = 0.01;
+    EXPECT_NEAR(seen_radiance(varnish, {0, 0, 4}, slight), 3 * (0.1 * 0.98 + 0.02), 1e-6);
+    EXPECT_NEAR(seen_radiance(varnish, {0, 0, 4}, strict), 3 * 0.1 * 0.98, 1e-6); // the rest shows the dark above
+    const std::string beam = "void light lit 0 0 3 900 900 900\nlit source s 0 0 4 0 0 1 1\n";
+    const double constant = 3 * 0.02;
+    EXPECT_NEAR((seen_radiance(varnish + beam, {0, 0, 4}, slight) - constant) /
+                    seen_radiance(varnish + beam, {0, 0, 4}, strict),
+                1, 0.01);
+}
+
 /// A sheet one metre over the floor whose front looks down, or up.
 std::string illum_sheet(const char* alternate, bool front_down)
 {
