@@ -193,22 +193,28 @@ bool PathTracer::add_constant(Walk& walk, const Lobes& lobes) const
     return false;
 }
 
+/// Light of lamps and suns by shadow rays as the vertex scatters it; all other light as a diffuse material does.
+bool PathTracer::scatter_as(Walk& walk, const Vertex& vertex, const Material& diffuse, PathRandom& random) const
+{
+    const int rays = walk.at_first ? seen_rays : later_rays;
+    gather_plainly(walk, vertex, {rays, {true, true, false}, LobeSet::all, true}, random);
+    const Vertex instead(vertex.hit, walk.ray.direction, diffuse);
+    if (walk.diffuse_bounces >= ambient_.limit->bounces)
+        return add_constant(walk, instead.bsdf.lobes());
+    add_direct(walk, direct_.gather(instead, {rays, {false, false, true}}, random, walk.here), 1, vertex.hit.modifier);
+    ++walk.diffuse_bounces;
+    if (!scatter(walk, instead, LobeSet::all, random))
+        return false;
+    walk.sources = Walk::Sources::answered;
+    return true;
+}
+
 /// Diffuse scattering up to a number of times, constant light instead beyond.
 bool PathTracer::scatter_within_limit(Walk& walk, const Vertex& vertex, const Material& material,
                                       PathRandom& random) const
 {
-    if (const std::optional<Material> plain = stand_in(material, *ambient_.limit)) {
-        gather_plainly(walk, vertex, {walk.at_first ? seen_rays : later_rays, {true, true, false}, LobeSet::all, true},
-                       random);
-        const Vertex instead(vertex.hit, walk.ray.direction, *plain);
-        if (walk.diffuse_bounces >= ambient_.limit->bounces)
-            return add_constant(walk, instead.bsdf.lobes());
-        ++walk.diffuse_bounces;
-        if (!scatter(walk, instead, LobeSet::all, random))
-            return false;
-        walk.sources = Walk::Sources::answered;
-        return true;
-    }
+    if (const std::optional<Material> plain = stand_in(material, *ambient_.limit))
+        return scatter_as(walk, vertex, *plain, random);
     const Lobes& lobes = vertex.bsdf.lobes();
     const bool sharp_too = lobes.glossy || lobes.delta;
     const int rays = walk.at_first ? seen_rays : later_rays;

@@ -88,6 +88,7 @@ private:
     void absorb_inside(Walk& walk, const Hit& hit, const Material& material) const;
     bool turn_in_prism(Walk& walk, const Hit& hit, const Prism& prism, PathRandom& random) const;
     bool scatter_within_limit(Walk& walk, const Vertex& vertex, const Material& material, PathRandom& random) const;
+    bool scatter_as(Walk& walk, const Vertex& vertex, const Material& diffuse, PathRandom& random) const;
     bool add_constant(Walk& walk, const Lobes& lobes) const;
     void meet_emitter(Walk& walk, const Hit& hit, const Material& material) const;
     void run(Walk& walk, PathRandom& random) const;
