@@ -30,8 +30,10 @@ def of_job(file):
     words = {"materials": [], "scene": [], "view": []}
     for line in file.read_text().replace("\\\n", " ").splitlines():
         key, _, value = line.partition("=")
-        if key.strip() in words and not (key.strip() == "view" and words["view"]):
-            words[key.strip()] += shlex.split(value)
+        # Names of variables may be cut short after three letters.
+        key = next((name for name in words if len(key.strip()) >= 3 and name.startswith(key.strip())), "")
+        if key and not (key == "view" and words["view"]):
+            words[key] += shlex.split(value)
     view = words["view"][1:]
     if "-vf" in view:
         at = view.index("-vf")
