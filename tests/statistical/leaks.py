@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """No light where none can be, and the right light beside thin things.
 
-    leaks.py [SCENE ...] [--settings "--quality draft;--quality normal;--quality fine"] [--plain=--unbiased] [--samples 16384]
+    leaks.py [SCENE ...] [--settings "--quality draft;--quality normal"] [--plain=--unbiased] [--samples 16384]
              [--largest 0.1] [--pictures FOLDER] [--json FILE]
 
 Scenes of tests/scenes/leak_scenes.py. Inside a sealed box every value must be 0 exactly. Elsewhere each setting is compared with
@@ -85,7 +85,7 @@ def line_of(row):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", metavar="SCENE")
-    parser.add_argument("--settings", default="--samples 128;--samples 512;--samples 2048")
+    parser.add_argument("--settings", default="--quality draft;--quality normal;--quality fine")
     parser.add_argument("--plain", default="--unbiased", help="options that make a grid plain path tracing")
     parser.add_argument("--samples", type=int, default=16384)
     parser.add_argument("--largest", type=float, default=0.1)
