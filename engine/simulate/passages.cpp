@@ -12,8 +12,6 @@ namespace {
 
 /// Points of a way through haze at which sources are asked.
 constexpr int haze_points = 2;
-/// Shadow rays at a vertex where interreflection is limited, at the first and at later ones.
-constexpr int seen_rays = 4, later_rays = 1;
 
 Spectrum power(const Spectrum& s, double exponent)
 {
@@ -196,7 +194,7 @@ bool PathTracer::add_constant(Walk& walk, const Lobes& lobes) const
 /// Light of lamps and suns by shadow rays as the vertex scatters it; all other light as a diffuse material does.
 bool PathTracer::scatter_as(Walk& walk, const Vertex& vertex, const Material& diffuse, PathRandom& random) const
 {
-    const int rays = walk.at_first ? seen_rays : later_rays;
+    const int rays = walk.at_first ? first_rays : later_rays;
     gather_plainly(walk, vertex, {rays, {true, true, false}, LobeSet::all, true}, random);
     const Vertex instead(vertex.hit, walk.ray.direction, diffuse);
     if (walk.diffuse_bounces >= ambient_.limit->bounces)
@@ -217,7 +215,7 @@ bool PathTracer::scatter_within_limit(Walk& walk, const Vertex& vertex, const Ma
         return scatter_as(walk, vertex, *plain, random);
     const Lobes& lobes = vertex.bsdf.lobes();
     const bool sharp_too = lobes.glossy || lobes.delta;
-    const int rays = walk.at_first ? seen_rays : later_rays;
+    const int rays = walk.at_first ? first_rays : later_rays;
     if (walk.diffuse_bounces >= ambient_.limit->bounces) {
         gather_plainly(walk, vertex, {rays, {true, true, false}, LobeSet::specular}, random);
         add_constant(walk, lobes);

@@ -58,4 +58,12 @@ struct PathTracer::Walk {
     }
 };
 
+/// Shadow rays to lamps and to the sky at the first vertex, where their noise is seen directly, and at later ones.
+inline constexpr int first_rays = 4, later_rays = 1;
+
+inline bool is_diffuse(const Lobes& lobes)
+{
+    return !lobes.diffuse_reflectance.is_black() || !lobes.diffuse_transmittance.is_black();
+}
+
 } // namespace lightwell
