@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
+#include "materials/bright_colours.h"
 #include "materials/dielectric.h"
 #include "materials/thin_glass.h"
 
@@ -17,7 +18,7 @@ constexpr double largest_power = 1e9;
 /// The checks of one material, each with the name it is called by in messages.
 class Checks {
 public:
-    explicit Checks(const std::string& place) : place_(place) {}
+    Checks(const std::string& place, bool patterned) : place_(place), patterned_(patterned) {}
 
     void fraction(const char* name, double value) const
     {
@@ -30,6 +31,15 @@ public:
             if (!(s[channel] >= 0 && s[channel] <= 1))
                 fail(channel_of(name, channel), s[channel], "in [0, 1]",
                      "a surface cannot give back more light than it gets");
+    }
+    /// What a pattern multiplies.
+    void colour(const char* name, const Spectrum& s) const
+    {
+        if (!patterned_)
+            return fractions(name, s);
+        for (int channel = 0; channel < 3; ++channel)
+            if (!(s[channel] >= 0 && std::isfinite(s[channel])))
+                fail(channel_of(name, channel), s[channel], ">= 0 and finite", "the pattern multiplies it");
     }
     void index(double value) const
     {
@@ -60,25 +70,26 @@ private:
         return (channel == 0 ? "red " : channel == 1 ? "green " : "blue ") + std::string(name);
     }
     const std::string& place_;
+    bool patterned_;
 };
 
 void check(const Checks& checks, const Plastic& m)
 {
-    checks.fractions("reflectance", m.colour);
+    checks.colour("reflectance", m.colour);
     checks.fraction("specularity", m.specularity);
     checks.fraction("roughness", m.roughness);
 }
 
 void check(const Checks& checks, const Metal& m)
 {
-    checks.fractions("reflectance", m.colour);
+    checks.colour("reflectance", m.colour);
     checks.fraction("specularity", m.specularity);
     checks.fraction("roughness", m.roughness);
 }
 
 void check(const Checks& checks, const Trans& m)
 {
-    checks.fractions("colour", m.colour);
+    checks.colour("colour", m.colour);
     checks.fraction("specularity", m.specularity);
     checks.fraction("roughness", m.roughness);
     checks.fraction("transmission", m.transmission);
@@ -96,13 +107,13 @@ void check(const Checks& checks, const Dielectric& m)
 
 void check(const Checks& checks, const Glass& m)
 {
-    checks.fractions("transmissivity", m.transmissivity);
+    checks.colour("transmissivity", m.transmissivity);
     checks.index(m.index);
 }
 
 void check(const Checks& checks, const Mirror& m)
 {
-    checks.fractions("reflectance", m.reflectance);
+    checks.colour("reflectance", m.reflectance);
 }
 
 void check(const Checks& checks, const Light& m)
@@ -135,7 +146,7 @@ void check(const Checks& checks, const Spotlight& m)
 
 void check(const Checks& checks, const Brushed& m)
 {
-    checks.fractions("colour", m.colour);
+    checks.colour("colour", m.colour);
     checks.fraction("specularity", m.specularity);
     checks.fraction("roughness along the grain", m.roughness_u);
     checks.fraction("roughness across the grain", m.roughness_v);
@@ -145,7 +156,7 @@ void check(const Checks& checks, const Brushed& m)
 
 void check(const Checks& checks, const Ashikhmin& m)
 {
-    checks.fractions("diffuse reflectance", m.diffuse);
+    checks.colour("diffuse reflectance", m.diffuse);
     checks.fractions("specular reflectance", m.specular);
     for (const double power : {m.power_u, m.power_v})
         if (!(power >= 0 && power <= largest_power))
@@ -172,7 +183,7 @@ void check_sides(const Checks& checks, const Spectrum& front, const Spectrum& ba
 
 void check(const Checks& checks, const Functional& m)
 {
-    checks.fractions("colour", m.colour);
+    checks.colour("colour", m.colour);
     checks.fraction("specularity", m.specularity);
     checks.fraction("transmission", m.transmission);
     checks.fraction("transmitted specular share", m.transmitted_specular);
@@ -321,8 +332,34 @@ void multiply(M& material, const Spectrum& colour)
 
 void validate_material(const Material& material, const std::string& place)
 {
-    const Checks checks(place);
+    const Checks checks(place, false);
     std::visit([&](const auto& m) { check(checks, m); }, material);
+}
+
+void validate_patterned_material(const Material& material, const std::string& place)
+{
+    const Checks checks(place, true);
+    std::visit([&](const auto& m) { check(checks, m); }, material);
+}
+
+double hold_saturated_colour(Material& material) noexcept
+{
+    double most = 0;
+    const auto hold = [&](Spectrum& colour) {
+        if (!(colour.max() > 1 && colour.is_finite() && photopic(colour) <= 1))
+            return;
+        most = colour.max();
+        colour = {std::min(colour.r, 1.0), std::min(colour.g, 1.0), std::min(colour.b, 1.0)};
+    };
+    std::visit(
+        [&](auto& m) {
+            if constexpr (requires { m.colour; })
+                hold(m.colour);
+            else if constexpr (requires { m.reflectance; })
+                hold(m.reflectance);
+        },
+        material);
+    return most;
 }
 
 std::string type_name(const Material& material)

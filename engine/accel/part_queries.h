@@ -63,6 +63,7 @@ struct Trace {
     double t_max;
     Hit* hit = nullptr;
     const MeshGeometry* mesh = nullptr; ///< of the best hit
+    bool backs_unseen = false;          ///< surfaces met from behind are not there
     bool opaque = false;
     PassedSurfaces* passed = nullptr; ///< of a transmittance query
     bool* illum_front = nullptr;      ///< of a transmittance query: see RayQueries::transmittance()
@@ -95,7 +96,8 @@ struct PartQueries {
     const Part* part = nullptr;
     RTCSceneTy* embree = nullptr;
     const std::vector<PartQueries>* prototypes = nullptr;
-    const std::vector<std::uint8_t>* see_through = nullptr; ///< by modifier
+    const std::vector<std::uint8_t>* see_through = nullptr;  ///< by modifier
+    const std::vector<std::uint8_t>* unseen_backs = nullptr; ///< by modifier; all 0 where backs are seen
     const std::vector<const Material*>* materials = nullptr;
     const std::vector<ModifierId>* alternates = nullptr; ///< by modifier: what shadow rays meet for an Illum
     const VariedMaterials* varied = nullptr;

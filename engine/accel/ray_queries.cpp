@@ -21,6 +21,17 @@ std::uint64_t instance_path(std::uint64_t outer, std::uint32_t instance_surface)
 
 namespace {
 
+/// Surfaces that have a front alone where backs are not seen.
+bool has_a_front(const Material& material) noexcept
+{
+    const auto* functional = std::get_if<Functional>(&material);
+    return !(std::holds_alternative<Dielectric>(material) || std::holds_alternative<Interface>(material) ||
+             std::holds_alternative<Mist>(material) || std::holds_alternative<Antimatter>(material) ||
+             std::holds_alternative<Prism>(material) || std::holds_alternative<Measured>(material) ||
+             std::holds_alternative<Wgmd>(material) ||
+             (functional != nullptr && functional->kind == Functional::Kind::BRTDfunc));
+}
+
 bool count_memory(void* counter, ssize_t bytes, bool)
 {
     *static_cast<std::atomic<std::int64_t>*>(counter) += bytes;
@@ -43,7 +54,8 @@ ModifierId alternate_of(const Scene& scene, const Material* material)
 struct RayQueries::State {
     RTCDevice device = nullptr;
     std::atomic<std::int64_t> embree_bytes{0};
-    std::vector<std::uint8_t> see_through;
+    std::vector<std::uint8_t> see_through, unseen_backs;
+    BackFaces backs = BackFaces::seen;
     std::vector<const Material*> materials;
     std::vector<ModifierId> alternates;
     VariedMaterials varied;
@@ -68,15 +80,17 @@ struct RayQueries::State {
         queries.part = &part;
         queries.prototypes = &prototypes;
         queries.see_through = &see_through;
+        queries.unseen_backs = &unseen_backs;
         queries.materials = &materials;
         queries.alternates = &alternates;
         queries.varied = &varied;
     }
 };
 
-RayQueries::RayQueries(const Scene& scene) : state_(std::make_unique<State>(scene))
+RayQueries::RayQueries(const Scene& scene, BackFaces backs) : state_(std::make_unique<State>(scene))
 {
     State& state = *state_;
+    state.backs = backs;
     state.device = rtcNewDevice(nullptr);
     if (state.device == nullptr)
         throw std::runtime_error("the ray tracing kernel could not be started");
@@ -90,7 +104,9 @@ RayQueries::RayQueries(const Scene& scene) : state_(std::make_unique<State>(scen
             see_through |= material == nullptr || stands_for_geometry(*material) ||
                            std::holds_alternative<Illum>(*material) ||
                            Bsdf(*material, true).lobes().transparent_to_shadows;
-        state.see_through.push_back(state.materials.back() != nullptr && see_through);
+        const Material* const material = state.materials.back();
+        state.see_through.push_back(material != nullptr && see_through);
+        state.unseen_backs.push_back(backs == BackFaces::unseen && material != nullptr && has_a_front(*material));
     }
     state.prototypes.resize(scene.prototypes.size());
     std::vector<Box> boxes;
@@ -112,8 +128,14 @@ RayQueries& RayQueries::operator=(RayQueries&&) noexcept = default;
 bool RayQueries::closest(const Ray& ray, Hit& hit) const noexcept
 {
     ++rays_of_thread.followed;
+    return nearest(ray, hit, state_->backs);
+}
+
+bool RayQueries::nearest(const Ray& ray, Hit& hit, BackFaces backs) const noexcept
+{
     hit = Hit{};
     Trace trace{};
+    trace.backs_unseen = backs == BackFaces::unseen;
     trace.t_max = ray.t_max;
     trace.hit = &hit;
     Level level = make_level(state_->root, trace, ray.origin, ray.direction);
@@ -171,7 +193,8 @@ Spectrum RayQueries::through_volumes(Ray ray, bool* illum_front) const noexcept
     Spectrum left = Spectrum::grey(1);
     for (int i = 0; i < most_passed && !left.is_black(); ++i) {
         Hit hit;
-        const bool met = closest(ray, hit);
+        ++rays_of_thread.followed;
+        const bool met = nearest(ray, hit, BackFaces::seen);
         if (const Volumes::Haze haze = volumes.haze(ray.in); haze.thick())
             left *= left_by_haze(haze.extinction_per_m, (met ? hit.t : ray.t_max) * metres_per_t);
         if (!met)

@@ -47,6 +47,12 @@ struct Hit {
 
 class Volumes; // engine/accel/volumes.h
 
+/// Whether a surface is there for a ray that comes from behind it. `unseen`: not for rays that look; shadow rays are
+/// stopped by what is opaque all the same, and pass the backs of what transmits without loss. Bodies of glass, mist,
+/// antimatter, prisms and what scatters by functions or measurements on both sides are always seen from both sides.
+/// Source  recorded behaviour of `-bv-` (tests/unit/accel)
+enum class BackFaces { seen, unseen };
+
 /// What patterns may ask about a hit.
 /// @param direction  of the ray, unit; the place refers to the hit
 PatternPlace pattern_place(const Hit& hit, const Direction& direction, double distance_m) noexcept;
@@ -61,7 +67,7 @@ std::uint64_t instance_path(std::uint64_t outer, std::uint32_t instance_surface)
 /// Source  Woop, Benthin, Wald 2013 (shared corners in a ray-aligned frame), extended to polygons of any outline
 class RayQueries {
 public:
-    explicit RayQueries(const Scene& scene);
+    explicit RayQueries(const Scene& scene, BackFaces backs = BackFaces::seen);
     ~RayQueries();
     RayQueries(RayQueries&&) noexcept;
     RayQueries& operator=(RayQueries&&) noexcept;
@@ -84,6 +90,7 @@ public:
 
 private:
     struct State;
+    bool nearest(const Ray& ray, Hit& hit, BackFaces backs) const noexcept;
     Spectrum through_volumes(Ray ray, bool* illum_front) const noexcept;
     std::unique_ptr<State> state_;
 };

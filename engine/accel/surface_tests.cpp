@@ -164,6 +164,8 @@ Spectrum passage(Hit& hit, const Direction& direction, double distance_m, const 
     const ModifierId modifier = hit.modifier;
     if (!(*queries.see_through)[static_cast<std::size_t>(modifier)])
         return {};
+    if (cosine > 0 && (*queries.unseen_backs)[static_cast<std::size_t>(modifier)])
+        return Spectrum::grey(1);
     SeenMaterial seen;
     if (queries.varied->varies(modifier)) {
         queries.varied->look(modifier, pattern_place(hit, direction, distance_m), seen);
@@ -258,6 +260,21 @@ void record_passage(const Level& level, const Candidate& candidate, double t)
         trace.passed->add(t, passed);
 }
 
+/// Whether the ray comes from behind to a surface that is seen from the front alone.
+bool unseen_from_here(const Level& level, const Candidate& candidate, ModifierId modifier, double t)
+{
+    const PartQueries& queries = *level.part;
+    if (!level.trace->backs_unseen || !(*queries.unseen_backs)[static_cast<std::size_t>(modifier)])
+        return false;
+    const Point at = level.origin + level.direction * t;
+    const Normals normals =
+        surface_normals(queries, queries.part->surfaces[candidate.surface], candidate.mesh, candidate.triangle, at);
+    const Level* root = &level;
+    while (root->outer != nullptr)
+        root = root->outer;
+    return dot(normal_to_world(level, normals.geometric), root->direction) > 0;
+}
+
 /// Keeps what is needed to describe the hit when the search is over: most candidates are beaten by nearer ones.
 void record_hit(const Level& level, const Candidate& candidate, double t)
 {
@@ -267,6 +284,8 @@ void record_hit(const Level& level, const Candidate& candidate, double t)
     const PartQueries& queries = *level.part;
     const ModifierId modifier = world_modifier(level, queries.part->surfaces[candidate.surface].modifier);
     if (modifier == void_modifier || (*queries.materials)[static_cast<std::size_t>(modifier)] == nullptr)
+        return;
+    if (unseen_from_here(level, candidate, modifier, t))
         return;
     Hit& best = *trace.hit;
     best.t = t;

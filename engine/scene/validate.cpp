@@ -1,6 +1,8 @@
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
+#include "engine/scene/patterned.h"
 #include "engine/scene/scene.h"
+#include "materials/bright_colours.h"
 
 #include <fmt/format.h>
 
@@ -68,7 +70,8 @@ void check_modifiers(const Scene& scene)
         const Modifier& modifier = scene.modifiers[static_cast<std::size_t>(i)];
         const std::string place = fmt::format("modifier \"{}\"", modifier.name);
         if (const auto* material = std::get_if<Material>(&modifier.what))
-            validate_material(*material, place);
+            has_pattern(scene, modifier.parent) ? validate_patterned_material(*material, place)
+                                                : validate_material(*material, place);
         if (const auto* varying = std::get_if<Varying>(&modifier.what))
             check_varying(*varying, place, count);
         ModifierId step = i;

@@ -44,6 +44,8 @@ CacheIdentity ambient_identity(const SimulationParts& parts, const AmbientEffort
     const std::string off = switched_off(of_records, parts.preparation);
     identity.add_setting("techniques switched off", off.empty() ? "none" : off);
     identity.add_setting("mirrors in a chain", std::to_string(parts.preparation.virtual_depth));
+    if (parts.preparation.backs_unseen)
+        identity.add_setting("backs of surfaces", "unseen");
     identity.add_setting("secondary sources", to_text(parts.preparation.secondary));
     identity.add_fingerprint("the program's way to ambient light", method_bits());
     return identity;

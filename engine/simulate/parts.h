@@ -24,8 +24,9 @@ struct SimulationParts {
 
     SimulationParts(Scene&& s, const Preparation& p)
         : scene(with_open_sheets(std::move(s), p.secondary)),
-          plan(plan_for(needs_of(scene), {PlanWish{}.accuracy, p.virtual_sources ? p.virtual_depth : 0})), rays(scene),
-          sources(scene, rays), virtual_sources(scene, sources, virtual_settings()), secondary(scene, p.secondary),
+          plan(plan_for(needs_of(scene), {PlanWish{}.accuracy, p.virtual_sources ? p.virtual_depth : 0})),
+          rays(scene, p.backs_unseen ? BackFaces::unseen : BackFaces::seen), sources(scene, rays),
+          virtual_sources(scene, sources, virtual_settings()), secondary(scene, p.secondary),
           tracer(scene, rays, sources, virtual_sources, {nullptr, nullptr, nullptr, p.ambient_limit},
                  direct_settings(p)),
           box(bounds(scene)), preparation(p)

@@ -136,6 +136,8 @@ struct GridResult {
 struct Preparation {
     int virtual_depth = 2;       ///< mirrors one after the other that virtual sources stand behind; 0: none
     bool virtual_sources = true; ///< false: as a depth of 0
+    /// Rays that look do not see surfaces from behind (BackFaces::unseen, engine/accel/ray_queries.h).
+    bool backs_unseen = false;
     DirectSettings direct = {};
     SecondarySettings secondary = {}; ///< openings that rays are aimed at
     /// Diffuse interreflection as other programs limit it; results are then found as with `unbiased`.

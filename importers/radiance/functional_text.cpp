@@ -1,6 +1,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/text.h"
 #include "importers/radiance/material_text.h"
+#include "materials/bright_colours.h"
 #include "materials/functional.h"
 #include "materials/measured/measured_table.h"
 
@@ -63,7 +64,7 @@ Material by_functions(const Primitive& p, const PatternReader::MaterialWords& wo
         made.transmission = trans ? n[4] : 0;
         made.transmitted_specular = trans ? n[5] : 0;
     }
-    validate_material(made, place);
+    validate_patterned_material(made, place); // the colour may be under a pattern, which the caller knows
     made.scale = bounded_scale(made);
     if (made.scale < 1)
         report.add(

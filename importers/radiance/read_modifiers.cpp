@@ -1,6 +1,8 @@
 #include "engine/base/text.h"
+#include "engine/scene/patterned.h"
 #include "importers/radiance/material_text.h"
 #include "importers/radiance/scene_reader.h"
+#include "materials/bright_colours.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -143,6 +145,17 @@ ModifierId SceneReader::moved_patterns(ModifierId modifier, const Affine& map, c
     return transformed(scene_, table_, modifier, map, {false, true, nullptr}, place);
 }
 
+void SceneReader::check_material(Material& material, const Meaning& parent, const std::string& place)
+{
+    const bool patterned = has_pattern(scene_, parent.id);
+    if (!patterned)
+        if (const double most = hold_saturated_colour(material); most > 0)
+            report_.add(
+                Finding::approximated, place,
+                fmt::format("its colour has a channel of {:.4g}, more than a surface can give back; held at 1", most));
+    patterned ? validate_patterned_material(material, place) : validate_material(material, place);
+}
+
 void SceneReader::define_material(OpenFile& file, const Primitive& primitive, Meaning parent, Target target)
 {
     const std::string place = file.words.place(primitive);
@@ -152,7 +165,7 @@ void SceneReader::define_material(OpenFile& file, const Primitive& primitive, Me
         try {
             Material material = functional_material_of(
                 primitive, patterns_.read_material(request(file, primitive, 0, place)), place, report_);
-            validate_material(material, place);
+            check_material(material, parent, place);
             if (parent.problem < 0)
                 meaning.id = table_.add({name, std::move(material), parent.id});
         } catch (const InputError& error) {
@@ -164,7 +177,7 @@ void SceneReader::define_material(OpenFile& file, const Primitive& primitive, Me
         return target.scope.define(std::move(name), meaning);
     }
     Material material = material_of(primitive, place);
-    validate_material(material, place);
+    check_material(material, parent, place);
     for (const std::string& named : named_modifiers(material))
         meaning_of(file, primitive, encoded_name(named), target);
     if (parent.pattern_left_out && is_emitter(material))

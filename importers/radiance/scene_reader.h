@@ -90,6 +90,7 @@ private:
                                                           std::size_t mixed_words, const std::string& place);
     ModifierId aliased(const std::string& name, ModifierId target, const std::optional<ModifierId>& parent);
     ModifierId moved_patterns(ModifierId modifier, const Affine& map, const std::string& place);
+    void check_material(Material& material, const Meaning& parent, const std::string& place);
     void define_material(OpenFile& file, const Primitive& primitive, Meaning parent, Target target);
     Meaning problem(const std::string& place, const std::string& what, const std::string& hint = {});
     Meaning meaning_of(OpenFile& file, const Primitive& primitive, std::string_view name, Target target);

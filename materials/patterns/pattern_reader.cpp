@@ -7,6 +7,7 @@
 #include "materials/patterns/spectral_colour.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lightwell {
 namespace {
@@ -192,8 +193,16 @@ private:
         if (n.size() < least || n[0] == n[1])
             throw InputError{request_.place, std::to_string(n.size()) + " numbers make no spectrum",
                              "they are the first and the last wavelength in nm and at least two values"};
-        const DataTable table({{n[0], n[1], n.size() - 2, {}}}, {n.begin() + 2, n.end()});
-        return PlaceFunction::Constant{colour_of(table)};
+        return PlaceFunction::Constant{colour_of_bands(n[0], n[1], {n.begin() + 2, n.end()})};
+    }
+    /// Each value holds for a band around its wavelength, half a step beyond both ends too.
+    static Spectrum colour_of_bands(double first_nm, double last_nm, const std::vector<double>& values)
+    {
+        const double last = static_cast<double>(values.size() - 1);
+        return spectral_colour([&](double nm) {
+            const double band = std::floor((nm - first_nm) / (last_nm - first_nm) * last + 0.5);
+            return band >= 0 && band <= last ? values[static_cast<std::size_t>(band)] : 0;
+        });
     }
     static Spectrum colour_of(const DataTable& table)
     {
@@ -210,6 +219,9 @@ private:
             if (table->dimensions() != 1)
                 throw InputError{request_.place, "the data file has " + std::to_string(table->dimensions()) +
                                                      " dimensions, expected the wavelength alone"};
+            const DataTable::Dimension& axis = table->axes().front();
+            if (axis.coordinates.empty() && axis.first != axis.last && axis.count > 1)
+                return PlaceFunction::Constant{colour_of_bands(axis.first, axis.last, table->values())};
             return PlaceFunction::Constant{colour_of(*table)};
         }
         const std::string context = function_file();

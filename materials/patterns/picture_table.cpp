@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "engine/base/text.h"
 #include "engine/pictures/exr.h"
 #include "engine/pictures/jpeg.h"
 #include "engine/pictures/png.h"
@@ -15,7 +16,14 @@
 namespace lightwell {
 namespace {
 
-PictureTable of_channels(const Picture& picture, const std::string& file)
+/// What the pixels of a Radiance picture were multiplied by before they were stored: patterns count what is stored.
+double stored_factor(const Picture& picture)
+{
+    const auto exposure = picture.header.find("EXPOSURE");
+    return exposure == picture.header.end() ? 1 : parse_double(exposure->second).value_or(1);
+}
+
+PictureTable of_channels(const Picture& picture, const std::string& file, double factor)
 {
     for (const char* channel : {"R", "G", "B"})
         if (!picture.channels.contains(channel))
@@ -23,7 +31,7 @@ PictureTable of_channels(const Picture& picture, const std::string& file)
     std::vector<Spectrum> pixels;
     const auto &r = picture.channels.at("R"), &g = picture.channels.at("G"), &b = picture.channels.at("B");
     for (std::size_t i = 0; i < r.size(); ++i)
-        pixels.push_back({r[i], g[i], b[i]});
+        pixels.push_back(Spectrum{r[i], g[i], b[i]} * factor);
     return {picture.width, picture.height, pixels};
 }
 
@@ -101,10 +109,12 @@ PictureTable PictureTable::read(const std::filesystem::path& file)
             return read_spectral_picture(mapped.bytes(), file.string());
         start = mapped.bytes().substr(0, 8);
     }
-    if (start.starts_with("#?"))
-        return of_channels(read_rgbe(file), file.string());
+    if (start.starts_with("#?")) {
+        const Picture picture = read_rgbe(file);
+        return of_channels(picture, file.string(), stored_factor(picture));
+    }
     if (start.starts_with("\x76\x2f\x31\x01"))
-        return of_channels(read_exr(file), file.string());
+        return of_channels(read_exr(file), file.string(), 1);
     if (start.starts_with("\x89PNG"))
         return of_display(read_png(file));
     if (start.starts_with("\xff\xd8\xff"))

@@ -2,6 +2,9 @@
 
 #include "engine/base/vector.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lightwell {
 namespace {
 
@@ -41,7 +44,7 @@ FromXyz from_xyz() noexcept
 const std::vector<SpectralWeight>& spectral_weights()
 {
     static const std::vector<SpectralWeight> weights = [] {
-        constexpr double first_nm = 380, last_nm = 780, step_nm = 10;
+        constexpr double first_nm = 380, last_nm = 780, step_nm = 5;
         const FromXyz rows = from_xyz();
         std::vector<SpectralWeight> all;
         Spectrum total;
@@ -55,6 +58,19 @@ const std::vector<SpectralWeight>& spectral_weights()
         return all;
     }();
     return weights;
+}
+
+Spectrum within_primaries(const Spectrum& colour) noexcept
+{
+    const double least = std::min({colour.r, colour.g, colour.b});
+    if (least >= 0)
+        return colour;
+    const double brightness = photopic(colour);
+    if (!(brightness > 0))
+        return {};
+    const double kept = brightness / (brightness - least);
+    const auto mixed = [&](double channel) { return std::fmax(brightness + (channel - brightness) * kept, 0); };
+    return {mixed(colour.r), mixed(colour.g), mixed(colour.b)};
 }
 
 } // namespace lightwell

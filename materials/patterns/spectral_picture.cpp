@@ -50,8 +50,6 @@ private:
                 fail("the header does not end");
             if (line.starts_with("NCOMP="))
                 components_ = parse_integer(trimmed(line.substr(6))).value_or(0);
-            else if (line.starts_with("EXPOSURE="))
-                exposure_ *= parse_double(trimmed(line.substr(9))).value_or(0);
             else if (line.starts_with("WAVELENGTH_SPLITS="))
                 read_splits(line.substr(18));
         }
@@ -64,8 +62,6 @@ private:
             height_ > most_side || width_ * height_ * components_ > most_pixels)
             fail(std::to_string(width_) + " x " + std::to_string(height_) + " pixels of " +
                  std::to_string(components_) + " components");
-        if (!(exposure_ > 0 && std::isfinite(exposure_)))
-            fail("the exposure is no number above 0");
     }
     void read_splits(std::string_view text)
     {
@@ -116,7 +112,7 @@ private:
         if (exponent == 0)
             return {};
         constexpr int bias = 136;
-        const double unit = std::ldexp(1.0, exponent - bias) / exposure_;
+        const double unit = std::ldexp(1.0, exponent - bias);
         return spectral_colour([&](double nm) {
             const double place = (first_nm_ - nm) / (first_nm_ - last_nm_) * static_cast<double>(components_) - 0.5;
             const double low = std::clamp(std::floor(place), 0.0, static_cast<double>(components_ - 1));
@@ -130,7 +126,7 @@ private:
     const std::string& file_;
     std::size_t at_ = 0;
     long long components_ = 0, width_ = 0, height_ = 0;
-    double exposure_ = 1, first_nm_ = 780, last_nm_ = 380;
+    double first_nm_ = 780, last_nm_ = 380;
 };
 
 } // namespace

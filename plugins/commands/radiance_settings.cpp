@@ -21,7 +21,7 @@ constexpr std::array<Accepted, 27> accepted{
     {{"-as", 1}, {"-ar", 1}, {"-aw", 1}, {"-st", 1}, {"-ss", 1}, {"-lr", 1}, {"-lw", 1}, {"-dj", 1}, {"-ds", 1},
      {"-dt", 1}, {"-dc", 1}, {"-dr", 1}, {"-dp", 1}, {"-ms", 1}, {"-mg", 1}, {"-am", 1}, {"-ae", 1}, {"-ai", 1},
      {"-aE", 1}, {"-aI", 1}, {"-me", 3}, {"-ma", 3}, {"-ap", 1}, {"-cs", 1}, {"-cw", 2}, {"-co", 0}, {"-pm", 1}}};
-constexpr std::array<std::string_view, 3> accepted_switches{"-u", "-bv", "-dv"};
+constexpr std::array<std::string_view, 2> accepted_switches{"-u", "-dv"};
 
 [[noreturn]] void refuse(const std::string& word)
 {
@@ -85,6 +85,11 @@ bool read_setting(OptionReader& words, RadianceSettings& settings)
         settings.warnings = *on;
         return true;
     }
+    if (const auto on = switch_of(word, "-bv", settings.backs_seen)) {
+        words.take();
+        settings.backs_seen = *on;
+        return true;
+    }
     if (word == "-ab") {
         settings.ambient_bounces = (words.take(), words.integer(word));
     } else if (word == "-aa") {
@@ -126,6 +131,7 @@ double native_accuracy(const RadianceSettings& settings) noexcept
 Preparation preparation_for(const RadianceSettings& settings)
 {
     Preparation preparation;
+    preparation.backs_unseen = !settings.backs_seen;
     if (settings.ambient_bounces == 0 || settings.ambient_divisions == 0)
         preparation.ambient_limit = {0, settings.ambient_value};
     else if (settings.ambient_accuracy == 0)

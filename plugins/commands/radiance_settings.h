@@ -19,6 +19,7 @@ struct RadianceSettings {
     Spectrum ambient_value;       ///< -av, W/(m^2 sr)
     std::string ambient_file;     ///< -af
     bool irradiance = false;      ///< -i
+    bool backs_seen = true;       ///< -bv
     bool warnings = true;         ///< -w
     int processes = 0;            ///< -n
     /// Options that were given and change nothing here, since the engine reaches their purpose by itself.

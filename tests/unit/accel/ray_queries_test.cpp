@@ -258,6 +258,40 @@ TEST(RayQueries, ShadowRaysMultiplyGlassAndStopAtWalls)
     EXPECT_EQ(rays.transmittance({{0, 0, 0}, {0, 0, 1}, 3.5}).g, 0);
 }
 
+/// What `-bv-` does there, recorded with one ray each: a look from behind passes, a shadow ray is stopped by plastic
+/// and passes the back of a pane without loss.
+TEST(RayQueries, UnseenBacksLetLooksThroughAndStopShadowRaysWhereTheyAreOpaque)
+{
+    Scene scene;
+    const ModifierId grey = add_grey(scene), clear = scene.add_material("clear", Glass{Spectrum::grey(0.5), 1.52});
+    const auto sheet = [&](Part& part, double z, ModifierId modifier) {
+        part.add_polygon({{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}, modifier, "sheet"); // its front is up
+    };
+    sheet(scene.root, 1, clear);
+    sheet(scene.root, 2, grey);
+    const RayQueries seen(scene), unseen(scene, BackFaces::unseen);
+    const Ray up{{0, 0, 0}, {0, 0, 1}, infinity}, down{{0, 0, 3}, {0, 0, -1}, infinity};
+    Hit hit;
+    EXPECT_TRUE(seen.closest(up, hit));
+    EXPECT_FALSE(unseen.closest(up, hit));
+    EXPECT_TRUE(unseen.closest(down, hit));
+    EXPECT_DOUBLE_EQ(hit.position.z, 2);
+    EXPECT_EQ(unseen.transmittance({{0, 0, 0}, {0, 0, 1}, 1.5}).g, 1);
+    EXPECT_LT(seen.transmittance({{0, 0, 0}, {0, 0, 1}, 1.5}).g, 0.5);
+    EXPECT_EQ(unseen.transmittance({{0, 0, 1.5}, {0, 0, 1}, 1}).g, 0);
+    // An instance that is mirrored keeps its front where its mirrored front is.
+    Scene mirrored;
+    Part part{"part", {}, {}, {}, {}, {}, {}, {}, {}, {}};
+    sheet(part, 1, add_grey(mirrored));
+    mirrored.prototypes.push_back(part);
+    mirrored.root.add_instance({0, Affine::scale({-1, 1, 1}), {}}, "copy");
+    const RayQueries of_copy(mirrored, BackFaces::unseen), of_copy_seen(mirrored);
+    for (const Ray& ray : {up, down}) {
+        ASSERT_TRUE(of_copy_seen.closest(ray, hit));
+        EXPECT_EQ(of_copy.closest(ray, hit), dot(hit.normal, ray.direction) < 0);
+    }
+}
+
 TEST(RayQueries, HolesBySeamsAndConcaveOutlinesLetRaysThrough)
 {
     Scene scene;

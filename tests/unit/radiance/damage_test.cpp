@@ -32,7 +32,7 @@ const Damage damages[] = {
     {"void glow p 0 0 3 .1 .1 .1", "scene.rad:1: glow \"p\": 3 numbers, expected 4"},
     {"void spotlight p 0 0 4 1 1 1 3", "scene.rad:1: spotlight \"p\": 4 numbers, expected 7"},
     {"void light p 0 0 4 1 1 1 3", "scene.rad:1: light \"p\": 4 numbers, expected 3"},
-    {"void plastic p 0 0 5 1.5 .1 .1 0 0", "scene.rad:1: plastic \"p\": "},
+    {"void plastic p 0 0 5 1.5 .9 .1 0 0", "scene.rad:1: plastic \"p\": "},
     {"void plastik p 0 0 5 .1 .1 .1 0 0", "scene.rad:1: plastik \"p\": \"plastik\" is no type"},
     {red + "\nblue sphere s 0 0 4 0 0 0 1", "scene.rad:6: sphere \"s\": modifier \"blue\" is not defined above"},
     {"s sphere s 0 0 4 0 0 0 1\n" + red, "scene.rad:1: sphere \"s\": modifier \"s\" is not defined above"},

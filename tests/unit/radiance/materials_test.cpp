@@ -149,6 +149,37 @@ TEST(SceneMaterials, VolumesWithWrongNumbersAreRefused)
     EXPECT_NE(folder.error("void antimatter m 1 nothing 0 0").find("\"nothing\" is not defined"), std::string::npos);
 }
 
+/// Radiance takes any colour; a saturated paint may be above 1 in one channel, and a pattern may darken what is
+/// brighter.
+TEST(SceneMaterials, ColoursAboveOneAreHeldAtOneOrLeftToThePatternOrRefused)
+{
+    const SceneFolder folder;
+    Report report;
+    const Scene held =
+        folder.read(std::string("void plastic m 0 0 5 1.677905 .34403 .600828 .02 .05\nm") + ball, report);
+    EXPECT_EQ(std::get<Plastic>(material_in(held)).colour, (Spectrum{1, .34403, .600828}));
+    ASSERT_EQ(report.notes().size(), 1u);
+    EXPECT_NE(report.notes()[0].text.find("a channel of 1.678"), std::string::npos) << report.notes()[0].text;
+    EXPECT_NE(folder.error("void plastic m 0 0 5 1.5 1.2 1 0 0").find("red reflectance is 1.5"), std::string::npos);
+
+    const std::string patterned = "void brightfunc half 2 if(Px,.25,.9) . 0 0\nhalf metal m 0 0 5 2 2 2 0 0\nm";
+    Report none;
+    const Scene scene = folder.read(patterned + ball, none);
+    EXPECT_TRUE(none.notes().empty());
+    EXPECT_NO_THROW(validate(scene));
+    const VariedMaterials varied(scene);
+    for (const double x : {1., -1.}) {
+        PatternPlace place;
+        place.position = {x, 0, 0};
+        SeenMaterial seen;
+        varied.look(scene.root.surfaces.back().modifier, place, seen);
+        EXPECT_DOUBLE_EQ(std::get<Metal>(*seen.material).colour.g, x > 0 ? 0.5 : 1); // 1.8 is held
+    }
+    EXPECT_NE(folder.error("void brightfunc half 2 .5 . 0 0\nhalf metal m 0 0 5 nan 2 2 0 0"), "");
+    EXPECT_NE(folder.error("void brightfunc half 2 .5 . 0 0\nhalf metal m 0 0 5 -2 2 2 0 0").find("-2, expected >= 0"),
+              std::string::npos);
+}
+
 TEST(SceneMaterials, AMeshOfVoidTakesTheMaterialsOfItsFile)
 {
     const SceneFolder folder;
