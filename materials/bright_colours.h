@@ -4,8 +4,8 @@
 
 namespace lightwell {
 
-/// As validate_material(), but the material's own colour may be above 1: its pattern is meant to darken it, and tinted()
-/// holds the product.
+/// As validate_material(), but the material's own colour may be above 1: its pattern is meant to darken it, and
+/// tinted() holds the product.
 /// @throws InputError as validate_material()
 void validate_patterned_material(const Material& material, const std::string& place);
 
