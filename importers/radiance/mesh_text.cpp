@@ -4,6 +4,7 @@
 #include "engine/base/files.h"
 #include "engine/base/text.h"
 #include "importers/radiance/surface_text.h"
+#include "importers/radiance/words.h"
 
 #include <algorithm>
 #include <array>
@@ -35,7 +36,7 @@ public:
         else if (words_[0] == "f")
             face();
         else if (words_[0] == "usemtl" && by_material_)
-            group_ = &groups_[words_.size() > 1 ? std::string(words_[1]) : ""];
+            group_ = &groups_[words_.size() > 1 ? decoded_name(words_[1]) : ""];
     }
 
     /// The meshes by material; without `by_material` one, whose name is empty.
@@ -164,11 +165,35 @@ void append_line(std::string& text, const char* keyword, std::initializer_list<d
 
 namespace {
 
+constexpr std::string_view mesh_format = "FORMAT=Lightwell_tmesh\n\n", mesh_start = "#?RADIANCE\n",
+                           parts_line = "materials triangles ";
+
+struct MeshParts {
+    std::string_view materials, triangles;
+};
+
+MeshParts parts_of(std::string_view bytes, const std::string& file)
+{
+    if (!is_mesh_file(bytes))
+        return {{}, bytes};
+    const std::size_t body = bytes.find(mesh_format) + mesh_format.size(), end = bytes.find('\n', body);
+    const std::vector<std::string_view> sizes = bytes.substr(body, parts_line.size()) == parts_line
+                                                    ? split(bytes.substr(body, end - body), " ")
+                                                    : std::vector<std::string_view>{};
+    const auto materials = sizes.size() == 4 ? parse_integer(sizes[2]) : std::nullopt;
+    const auto triangles = sizes.size() == 4 ? parse_integer(sizes[3]) : std::nullopt;
+    const auto left = static_cast<long long>(end == bytes.npos ? 0 : bytes.size() - end - 1);
+    if (!materials || !triangles || *materials < 0 || *materials > left || *triangles != left - *materials)
+        throw InputError{file, "the mesh file is damaged: it is not as long as it says", "make it again with obj2mesh"};
+    const std::string_view rest = bytes.substr(end + 1);
+    return {rest.substr(0, static_cast<std::size_t>(*materials)), rest.substr(static_cast<std::size_t>(*materials))};
+}
+
 std::map<std::string, Mesh> read_meshes(const std::filesystem::path& file, bool by_material)
 {
     const MappedFile mapped(file);
     MeshReader reader(file.filename().string(), by_material);
-    std::string_view rest = mapped.bytes();
+    std::string_view rest = parts_of(mapped.bytes(), file.string()).triangles;
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         reader.line(rest.substr(0, end));
@@ -189,9 +214,15 @@ std::map<std::string, Mesh> read_meshes_by_material(const std::filesystem::path&
     return read_meshes(file, true);
 }
 
-std::string mesh_text(const Mesh& mesh)
+namespace {
+
+/// What stands in a text already.
+struct Listed {
+    std::size_t points = 0, texture = 0, normals = 0;
+};
+
+void append_mesh(std::string& text, const Mesh& mesh, const Listed& before)
 {
-    std::string text = "# triangles of one mesh, in metres; written by Lightwell\n";
     for (const Point& p : mesh.points)
         append_line(text, "v", {p.x, p.y, p.z});
     for (std::size_t i = 0; i + 1 < mesh.texture.size(); i += 2)
@@ -200,17 +231,52 @@ std::string mesh_text(const Mesh& mesh)
         append_line(text, "vn", {n.x, n.y, n.z});
     const bool texture = !mesh.texture.empty(), normals = !mesh.normals.empty();
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const std::string index = std::to_string(mesh.triangles[i] + 1);
+        const std::size_t corner = mesh.triangles[i] + std::size_t{1};
         text += i % 3 == 0 ? "f " : " ";
-        text += index;
+        text += std::to_string(before.points + corner);
         if (texture || normals)
-            text.append("/").append(texture ? index : "");
+            text.append("/").append(texture ? std::to_string(before.texture + corner) : "");
         if (normals)
-            text.append("/").append(index);
+            text.append("/").append(std::to_string(before.normals + corner));
         if (i % 3 == 2)
             text += '\n';
     }
+}
+
+} // namespace
+
+std::string mesh_text(const Mesh& mesh)
+{
+    std::string text = "# triangles of one mesh, in metres; written by Lightwell\n";
+    append_mesh(text, mesh, {});
     return text;
+}
+
+std::string mesh_file(const std::string& command, const std::string& materials,
+                      const std::map<std::string, Mesh>& meshes)
+{
+    std::string triangles;
+    Listed before;
+    for (const auto& [material, mesh] : meshes) {
+        triangles += "usemtl " + (material.empty() ? "" : encoded_name(material)) + '\n';
+        append_mesh(triangles, mesh, before);
+        before.points += mesh.points.size();
+        before.texture += mesh.texture.size() / 2;
+        before.normals += mesh.normals.size();
+    }
+    return std::string(mesh_start) + command + '\n' + std::string(mesh_format) + std::string(parts_line) +
+           std::to_string(materials.size()) + ' ' + std::to_string(triangles.size()) + '\n' + materials + triangles;
+}
+
+bool is_mesh_file(std::string_view bytes) noexcept
+{
+    constexpr std::size_t most_of_header = 1 << 16;
+    return bytes.starts_with(mesh_start) && bytes.substr(0, most_of_header).find(mesh_format) != bytes.npos;
+}
+
+std::string_view materials_of_mesh_file(std::string_view bytes, const std::string& file)
+{
+    return parts_of(bytes, file).materials;
 }
 
 } // namespace lightwell::scene_text

@@ -92,7 +92,8 @@ struct PartReader {
     std::uint32_t first_prototype;
     const std::string& place;
 
-    Part read() const
+    /// @param known  prototypes that come before this part: it can be made of no others, least of all of itself
+    Part read(std::size_t known) const
     {
         Part part;
         part.name = in.text();
@@ -111,7 +112,10 @@ struct PartReader {
         const auto instances = in.value<std::uint64_t>();
         for (std::uint64_t i = 0; i < instances; ++i) {
             Instance instance;
-            instance.prototype = in.value<std::uint32_t>() + first_prototype;
+            const std::uint64_t prototype = std::uint64_t{in.value<std::uint32_t>()} + first_prototype;
+            if (prototype >= known)
+                refuse(place, "has a part made of one that does not come before it");
+            instance.prototype = static_cast<std::uint32_t>(prototype);
             instance.to_parent = in.value<Affine>();
             instance.bindings = in.array<Binding>();
             for (Binding& binding : instance.bindings)
@@ -284,10 +288,10 @@ void SceneReader::read_compiled(std::string_view bytes, const std::filesystem::p
         meshes.push_back(read_mesh(in, name));
     const PartReader parts{in, modifier, meshes, static_cast<std::uint32_t>(scene_.prototypes.size()), name};
     for (auto left = in.value<std::uint64_t>(); left > 0; --left) {
-        scene_.prototypes.push_back(parts.read());
+        scene_.prototypes.push_back(parts.read(scene_.prototypes.size()));
         prototype_changes_.emplace_back(false, false);
     }
-    append_part(target.part, parts.read());
+    append_part(target.part, parts.read(scene_.prototypes.size()));
 }
 
 NamedScene SceneReader::read_sources(const std::vector<SceneSource>& sources)

@@ -1,3 +1,4 @@
+#include "engine/base/files.h"
 #include "engine/base/text.h"
 #include "importers/radiance/kept_meshes.h"
 #include "importers/radiance/mesh_text.h"
@@ -30,7 +31,7 @@ void SceneReader::add_mesh(OpenFile& file, const Primitive& primitive, Target ta
         throw InputError{place, fmt::format("\"{}\" is no control cage", name), "name a .ply"};
     const ModifierId modifier = usable(file, primitive, file.last_meaning);
     const fs::path path = find(name, file, place);
-    if (path.extension() != ".obj")
+    if (path.extension() != ".obj" && path.extension() != ".rtm")
         throw InputError{place, fmt::format("\"{}\" is no mesh file that is read", name),
                          "name a .ply, an .obj, or the .rtm beside which the .obj stands"};
     const Affine map = only_placement(primitive, place);
@@ -49,8 +50,11 @@ std::uint32_t SceneReader::prototype_with_materials(const fs::path& path, OpenFi
     const std::pair key(fs::weakly_canonical(path), void_modifier);
     if (const auto known = mesh_prototypes_.find(key); known != mesh_prototypes_.end())
         return known->second;
+    const MappedFile mapped(path);
+    const bool own = is_mesh_file(mapped.bytes());
     fs::path definitions = path;
-    definitions.replace_extension(".mat");
+    if (!own)
+        definitions.replace_extension(".mat");
     if (std::error_code unreadable; !fs::is_regular_file(definitions, unreadable))
         throw InputError{place,
                          fmt::format("a mesh made of `void` takes its materials from \"{}\", which is not there",
@@ -59,7 +63,10 @@ std::uint32_t SceneReader::prototype_with_materials(const fs::path& path, OpenFi
     Part part;
     part.name = path.stem().string();
     Scope scope;
-    read_file(definitions, &file, place, {part, scope});
+    if (own)
+        read_text(materials_of_mesh_file(mapped.bytes(), path.string()), path, path.string(), &file, {part, scope});
+    else
+        read_file(definitions, &file, place, {part, scope});
     for (auto& [name, mesh] : read_meshes_by_material(path)) {
         const auto meaning = scope.find(name);
         if (!meaning)

@@ -1,4 +1,5 @@
 #include "engine/base/files.h"
+#include "importers/radiance/mesh_text.h"
 #include "importers/radiance/scene_reader.h"
 
 #include <cstdlib>
@@ -62,6 +63,9 @@ fs::path SceneReader::find(const std::string& name, const OpenFile& file, const 
     // What oconv here has compiled is read as it is; of what others have compiled the text is wanted.
     if (const auto own = fs::path(name).extension() == ".oct" ? find_quietly(name, file) : std::nullopt)
         if (is_compiled_scene(MappedFile(*own).bytes()))
+            return *own;
+    if (const auto own = fs::path(name).extension() == ".rtm" ? find_quietly(name, file) : std::nullopt)
+        if (is_mesh_file(MappedFile(*own).bytes()))
             return *own;
     const fs::path wanted = text_of_compiled(name);
     if (const auto found = find_quietly(wanted, file))

@@ -17,11 +17,11 @@ struct NamedCommand {
     Command run;
 };
 constexpr NamedCommand all[] = {
-    {"genblinds", generate}, {"genbox", generate},     {"gendaylit", generate}, {"genprism", generate},
-    {"genrev", generate},    {"gensky", generate},     {"gensurf", generate},   {"genworm", generate},
-    {"getinfo", getinfo},    {"ies2rad", ies2rad},     {"oconv", oconv},        {"pvalue", pvalue},
-    {"rcalc", rcalc},        {"replmarks", transform}, {"rpict", rpict},        {"rtrace", rtrace},
-    {"vwrays", vwrays},      {"xform", transform},
+    {"genblinds", generate}, {"genbox", generate}, {"gendaylit", generate}, {"genprism", generate},
+    {"genrev", generate},    {"gensky", generate}, {"gensurf", generate},   {"genworm", generate},
+    {"getinfo", getinfo},    {"ies2rad", ies2rad}, {"obj2mesh", obj2mesh},  {"obj2rad", obj2rad},
+    {"oconv", oconv},        {"pvalue", pvalue},   {"rcalc", rcalc},        {"replmarks", transform},
+    {"rpict", rpict},        {"rtrace", rtrace},   {"vwrays", vwrays},      {"xform", transform},
 };
 
 std::string plain_name(const std::string& program)

@@ -7,6 +7,8 @@ namespace lightwell::commands {
 // One function for each command, or for a family of them; the name is the first word.
 int getinfo(const std::vector<std::string>& words, const Streams& streams);
 int ies2rad(const std::vector<std::string>& words, const Streams& streams);
+int obj2mesh(const std::vector<std::string>& words, const Streams& streams);
+int obj2rad(const std::vector<std::string>& words, const Streams& streams);
 int oconv(const std::vector<std::string>& words, const Streams& streams);
 int pvalue(const std::vector<std::string>& words, const Streams& streams);
 int rcalc(const std::vector<std::string>& words, const Streams& streams);

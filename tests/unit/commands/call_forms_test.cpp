@@ -72,6 +72,8 @@ void make_files(const WorkFolder& folder)
     folder.write("sky.rad", "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 180\n");
     folder.write("dir/part.rad", "grey sphere ball 0 0 4 1 1 1 .2\n");
     folder.write("view.vf", "rvu -vtv -vp 0 -4 1 -vd 0 1 0 -vu 0 0 1 -vh 40 -vv 30\n");
+    folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng roof\nusemtl red\nf 1 2 3\n");
+    folder.write("rules.map", "plain ; tin (Group roof) ;\n");
     folder.write("own.cal", "twice(x) : 2*x;\n");
     folder.write("lamp.ies", "IESNA:LM-63-2002\n[TEST] x\nTILT=NONE\n1 1000 1 3 1 1 2 .2 .4 0\n1 1 10\n0 45 90\n0\n358 "
                              "179 0\n");
@@ -107,7 +109,7 @@ Ran run_form(const CallForm& form)
 TEST(CallForms, EveryFormOfTheTableGivesWhatItsCallerLooksFor)
 {
     const std::vector<CallForm> forms = table();
-    EXPECT_GE(forms.size(), 75u);
+    EXPECT_GE(forms.size(), 83u);
     for (const CallForm& form : forms) {
         SCOPED_TRACE(form.line);
         const WorkFolder folder;

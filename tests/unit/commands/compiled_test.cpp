@@ -125,6 +125,40 @@ TEST(CompiledScenes, AnyDamageIsNamed)
     }
 }
 
+/// With its checksum made to fit again.
+std::string forged(std::string compiled, std::size_t at, char byte)
+{
+    using namespace scene_text;
+    const std::size_t body = compiled.find(compiled_mark) + compiled_mark.size();
+    const std::size_t tail = compiled.size() - compiled_end.size() - 2 * sizeof(std::uint64_t);
+    compiled[at] = byte;
+    ByteSum sum;
+    sum.add(compiled.data() + body, tail - body);
+    const std::uint64_t value = sum.sum();
+    std::memcpy(compiled.data() + tail, &value, sizeof value);
+    return compiled;
+}
+
+TEST(CompiledScenes, PartsThatAreMadeOfEachOtherInARingAreRefused)
+{
+    const WorkFolder folder;
+    folder.write("leaf.rad", "void plastic g 0 0 5 .1 .5 .1 0 0\ng sphere s 0 0 4 0 0 0 1\n");
+    folder.write("twig.rad", "void instance a 5 leaf.rad -t 5 0 0 0 0\n");
+    folder.write("tree.rad", "void instance b 5 twig.rad -t 0 5 0 0 0\n");
+    const std::string whole = run("oconv -f tree.rad").out;
+    for (const char* name : {"leaf.rad", "twig.rad"})
+        std::filesystem::remove(name);
+    folder.write("forest.rad", "void plastic g 0 0 5 .1 .5 .1 0 0\ng instance c 1 forged.oct 0 0\n");
+    int rings = 0;
+    for (std::size_t at = whole.find("LWscene"); at + 32 < whole.size(); ++at)
+        if (whole[at] == 0 || whole[at] == 1) {
+            std::ofstream("forged.oct", std::ios::binary) << forged(whole, at, whole[at] == 0 ? 1 : 2);
+            const Ran ran = run("oconv -f forest.rad");
+            rings += ran.err.find("made of one that does not come before it") != std::string::npos ? 1 : 0;
+        }
+    EXPECT_GE(rings, 2);
+}
+
 TEST(CompiledScenes, NumbersThatPointBeyondTheirListsAreRefusedThoughTheChecksumFits)
 {
     using namespace scene_text;
@@ -136,12 +170,7 @@ TEST(CompiledScenes, NumbersThatPointBeyondTheirListsAreRefusedThoughTheChecksum
     const std::size_t tail = whole.size() - compiled_end.size() - 2 * sizeof(std::uint64_t);
     int refused = 0;
     for (std::size_t at = body; at < tail; ++at) {
-        std::string changed = whole;
-        changed[at] = '\x7d';
-        ByteSum sum;
-        sum.add(changed.data() + body, tail - body);
-        const std::uint64_t value = sum.sum();
-        std::memcpy(changed.data() + tail, &value, sizeof value);
+        const std::string changed = forged(whole, at, '\x7d');
         Report report;
         try {
             validate(read_radiance_sources({{"a.oct", changed}}, report).scene);
