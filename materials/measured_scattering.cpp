@@ -2,25 +2,57 @@
 
 #include "materials/diffuse.h"
 #include "materials/measured/measured_table.h"
+#include "materials/patterns/spectral_colour.h"
 
 #include <cmath>
 
 namespace lightwell {
 namespace {
 
-double least_of(const DirectionTable* table)
+Spectrum held(const Spectrum& s)
 {
-    return table != nullptr ? table->least_per_sr() : 0;
+    return {std::fmax(s.r, 0), std::fmax(s.g, 0), std::fmax(s.b, 0)};
+}
+
+Spectrum least_of(const DirectionTable* table, const ColourTables& beside)
+{
+    if (table == nullptr)
+        return {};
+    const double y = table->least_per_sr();
+    return beside.x == nullptr ? Spectrum::grey(y)
+                               : held(colour_of_xyz({beside.x->least_per_sr(), y, beside.z->least_per_sr()}));
 }
 
 } // namespace
 
 MeasuredScattering::MeasuredScattering(const Measured& m, bool from_front) noexcept
     : reflection_(m.table->reflection(from_front)), transmission_(m.table->transmission(from_front)),
-      scale_(m.table->scaled_by()), side_(from_front ? 1 : -1), passes_straight_(m.passes_straight)
+      reflection_beside_(&m.table->reflection_beside(from_front)),
+      transmission_beside_(&m.table->transmission_beside(from_front)), scale_(m.table->scaled_by()),
+      side_(from_front ? 1 : -1), passes_straight_(m.passes_straight)
 {
-    diffuse_reflectance_ = (from_front ? m.front : m.back) + Spectrum::grey(scale_ * pi * least_of(reflection_));
-    diffuse_transmittance_ = m.through + Spectrum::grey(scale_ * pi * least_of(transmission_));
+    least_reflection_per_sr_ = scale_ * least_of(reflection_, *reflection_beside_);
+    least_transmission_per_sr_ = scale_ * least_of(transmission_, *transmission_beside_);
+    diffuse_reflectance_ = (from_front ? m.front : m.back) + pi * least_reflection_per_sr_;
+    diffuse_transmittance_ = m.through + pi * least_transmission_per_sr_;
+}
+
+Spectrum MeasuredScattering::coloured(const DirectionTable& table, const ColourTables& beside, const DiscPoint& in,
+                                      const DiscPoint& out) const noexcept
+{
+    const double y = table.value_per_sr(in, out);
+    return scale_ * (beside.x == nullptr ? Spectrum::grey(y)
+                                         : within_primaries(colour_of_xyz(
+                                               {beside.x->value_per_sr(in, out), y, beside.z->value_per_sr(in, out)})));
+}
+
+Spectrum MeasuredScattering::straight(const Peak& peak, const Direction& to_viewer) const noexcept
+{
+    if (transmission_ == nullptr || transmission_beside_->x == nullptr || !(peak.transmittance > 0))
+        return Spectrum::grey(peak.transmittance);
+    const DiscPoint in = incident(to_viewer);
+    const double y = scale_ * transmission_->value_per_sr(in, in);
+    return y > 0 ? coloured(*transmission_, *transmission_beside_, in, in) * (peak.transmittance / y) : Spectrum{};
 }
 
 DiscPoint MeasuredScattering::incident(const Direction& to_viewer) const noexcept
@@ -60,17 +92,20 @@ MeasuredScattering::Shares MeasuredScattering::shares(const Direction& to_viewer
             s.diffuse_transmission / sum};
 }
 
-double MeasuredScattering::lobe_value(const Direction& to_viewer, const Direction& to_light,
-                                      const Peak& peak) const noexcept
+Spectrum MeasuredScattering::lobe_value(const Direction& to_viewer, const Direction& to_light,
+                                        const Peak& peak) const noexcept
 {
     const DirectionTable* table = to_light.z > 0 ? reflection_ : transmission_;
     if (table == nullptr)
-        return 0;
-    const double least = scale_ * table->least_per_sr();
+        return {};
+    const Spectrum least = to_light.z > 0 ? least_reflection_per_sr_ : least_transmission_per_sr_;
     const DiscPoint in = incident(to_viewer), out{side_ * to_light.x, to_light.y};
-    if (to_light.z < 0 && peak.transmittance > 0 && transmission_->within_peak(in, out))
-        return std::fmax(0, peak.around_per_sr - least);
-    return std::fmax(0, scale_ * table->value_per_sr(in, out) - least);
+    const Spectrum found = coloured(*table, to_light.z > 0 ? *reflection_beside_ : *transmission_beside_, in, out);
+    if (to_light.z < 0 && peak.transmittance > 0 && transmission_->within_peak(in, out)) {
+        const double y = scale_ * table->value_per_sr(in, out);
+        return held(found * (y > 0 ? peak.around_per_sr / y : 0) - least);
+    }
+    return held(found - least);
 }
 
 Spectrum MeasuredScattering::value_per_sr(Direction to_viewer, Direction to_light, LobeSet set) const noexcept
@@ -81,7 +116,7 @@ Spectrum MeasuredScattering::value_per_sr(Direction to_viewer, Direction to_ligh
     if (set != LobeSet::specular)
         value = (to_light.z > 0 ? diffuse_reflectance_ : diffuse_transmittance_) / pi;
     if (set != LobeSet::diffuse)
-        value += Spectrum::grey(lobe_value(to_viewer, to_light, peak(to_viewer)));
+        value += lobe_value(to_viewer, to_light, peak(to_viewer));
     return value;
 }
 
@@ -111,10 +146,10 @@ std::optional<BsdfSample> MeasuredScattering::sample(Direction to_viewer, double
 {
     if (!(to_viewer.z > 0))
         return {};
-    const Peak straight = peak(to_viewer);
-    const Shares s = shares(to_viewer, straight, set);
+    const Peak peak_here = peak(to_viewer);
+    const Shares s = shares(to_viewer, peak_here, set);
     if (choice < s.straight)
-        return BsdfSample{-to_viewer, Spectrum::grey(straight.transmittance / s.straight), 0, true, true};
+        return BsdfSample{-to_viewer, straight(peak_here, to_viewer) / s.straight, 0, true, true};
     choice -= s.straight;
     Direction to_light;
     const double lobes = s.reflected + s.transmitted;
@@ -138,7 +173,7 @@ std::optional<BsdfSample> MeasuredScattering::sample(Direction to_viewer, double
 
 Spectrum MeasuredScattering::straight_transmittance(Direction to_viewer) const noexcept
 {
-    return to_viewer.z > 0 ? Spectrum::grey(peak(to_viewer).transmittance) : Spectrum{};
+    return to_viewer.z > 0 ? straight(peak(to_viewer), to_viewer) : Spectrum{};
 }
 
 Lobes MeasuredScattering::lobes() const noexcept

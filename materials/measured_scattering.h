@@ -9,6 +9,7 @@
 namespace lightwell {
 
 class DirectionTable;
+struct ColourTables; // materials/measured/direction_table.h
 
 /// Scattering from a file: what is the same in all directions counts as diffuse, the rest as a lobe; for aBSDF the peak
 /// of what passes straight is taken out and seen sharply.
@@ -40,12 +41,20 @@ private:
     /// As tables are asked: the projection, reversed.
     DiscPoint incident(const Direction& to_viewer) const noexcept;
     Shares shares(const Direction& to_viewer, const Peak& peak, LobeSet set) const noexcept;
-    double lobe_value(const Direction& to_viewer, const Direction& to_light, const Peak& peak) const noexcept;
+    Spectrum lobe_value(const Direction& to_viewer, const Direction& to_light, const Peak& peak) const noexcept;
     double density(const Shares& shares, const Direction& to_viewer, const Direction& to_light) const noexcept;
+
+    /// The colour of a value of a table along two directions: that value, in colour.
+    Spectrum coloured(const DirectionTable& table, const ColourTables& beside, const DiscPoint& in,
+                      const DiscPoint& out) const noexcept;
+    /// Of the peak, which has the colour of what passes straight.
+    Spectrum straight(const Peak& peak, const Direction& to_viewer) const noexcept;
 
     const DirectionTable* reflection_ = nullptr;
     const DirectionTable* transmission_ = nullptr;
-    double scale_ = 1, side_ = 1; ///< side: sign of x in the frame of the file
+    const ColourTables *reflection_beside_ = nullptr, *transmission_beside_ = nullptr;
+    Spectrum least_reflection_per_sr_, least_transmission_per_sr_; ///< what counts as diffuse
+    double scale_ = 1, side_ = 1;                                  ///< side: sign of x in the frame of the file
     Spectrum diffuse_reflectance_, diffuse_transmittance_;
     bool passes_straight_ = false;
 };

@@ -42,4 +42,9 @@ protected:
     double around(const DiscPoint& in, double radius) const noexcept;
 };
 
+/// CIE X and Z beside luminous values, which are Y, relative to equal-energy white; null: grey.
+struct ColourTables {
+    std::shared_ptr<const DirectionTable> x, z;
+};
+
 } // namespace lightwell

@@ -6,6 +6,7 @@
 #include "materials/measured/tree_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <pugixml.hpp>
 
@@ -31,6 +32,9 @@ public:
         read_bases(layer);
         for (const pugi::xml_node data : layer.children("WavelengthData"))
             wavelength(data);
+        for (const Target& target : targets())
+            if ((target.beside->x == nullptr) != (target.beside->z == nullptr) || *target.part == nullptr)
+                *target.beside = {}; // one alone is no colour
         if (parts_.front == nullptr && parts_.back == nullptr && parts_.from_front == nullptr &&
             parts_.from_back == nullptr)
             throw InputError{file_,
@@ -116,26 +120,36 @@ private:
     void wavelength(const pugi::xml_node& data)
     {
         const std::string light = text_of(data, "Wavelength");
-        if (lowercase_ascii(light) != "visible") {
+        const std::string kind = lowercase_ascii(light);
+        if (kind != "visible" && kind != "cie-x" && kind != "cie-z") {
             if (about_.not_read.find(light) == std::string::npos)
                 about_.not_read += (about_.not_read.empty() ? "" : ", ") + light;
             return;
         }
         for (const pugi::xml_node block : data.children("WavelengthDataBlock"))
-            add(block);
+            add(block, kind);
     }
-    void add(const pugi::xml_node& block)
+    struct Target {
+        std::string_view direction;
+        std::shared_ptr<const DirectionTable>* part;
+        ColourTables* beside;
+    };
+    /// The front of the file is the outer side, whose normal points away from the room; ours is the other.
+    std::array<Target, 4> targets()
     {
-        // The front of the file is the outer side, whose normal points away from the room; ours is the other.
-        const std::pair<std::string_view, std::shared_ptr<const DirectionTable>*> targets[] = {
-            {"reflection back", &parts_.front},
-            {"reflection front", &parts_.back},
-            {"transmission back", &parts_.from_front},
-            {"transmission front", &parts_.from_back}};
+        return {{{"reflection back", &parts_.front, &parts_.beside_front},
+                 {"reflection front", &parts_.back, &parts_.beside_back},
+                 {"transmission back", &parts_.from_front, &parts_.beside_from_front},
+                 {"transmission front", &parts_.from_back, &parts_.beside_from_back}}};
+    }
+    void add(const pugi::xml_node& block, std::string_view kind)
+    {
         const std::string direction = lowercase_ascii(text_of(block, "WavelengthDataDirection"));
-        for (const auto& [name, part] : targets)
-            if (name == direction) {
-                *part = table_of(block);
+        for (const Target& target : targets())
+            if (target.direction == direction) {
+                (kind == "visible" ? *target.part
+                 : kind == "cie-x" ? target.beside->x
+                                   : target.beside->z) = table_of(block);
                 return;
             }
         throw InputError{at(block), "WavelengthDataDirection is \"" + direction + '"',

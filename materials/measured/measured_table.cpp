@@ -1,5 +1,7 @@
 #include "materials/measured/measured_table.h"
 
+#include "materials/patterns/spectral_colour.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,13 +23,33 @@ double DirectionTable::around(const DiscPoint& in, double radius) const noexcept
     return found > 0 ? sum / found : 0;
 }
 
+namespace {
+
+Spectrum hemispherical(const DirectionTable* table, const ColourTables& beside, const DiscPoint& in)
+{
+    if (table == nullptr)
+        return {};
+    const double y = table->hemispherical(in);
+    return beside.x == nullptr ? Spectrum::grey(y)
+                               : colour_of_xyz({beside.x->hemispherical(in), y, beside.z->hemispherical(in)});
+}
+
+} // namespace
+
 MeasuredTable::MeasuredTable(Parts parts, About about) : parts_(std::move(parts)), about_(std::move(about))
 {
     // One way through tells the other by reciprocity.
-    if (parts_.from_front == nullptr && parts_.from_back != nullptr)
+    const auto exchange = [](const ColourTables& other) {
+        return other.x == nullptr ? ColourTables{} : ColourTables{other.x->reversed(), other.z->reversed()};
+    };
+    if (parts_.from_front == nullptr && parts_.from_back != nullptr) {
         parts_.from_front = parts_.from_back->reversed();
-    if (parts_.from_back == nullptr && parts_.from_front != nullptr)
+        parts_.beside_from_front = exchange(parts_.beside_from_back);
+    }
+    if (parts_.from_back == nullptr && parts_.from_front != nullptr) {
         parts_.from_back = parts_.from_front->reversed();
+        parts_.beside_from_back = exchange(parts_.beside_from_front);
+    }
     const auto most = [](const DirectionTable* table) { return table != nullptr ? table->most_hemispherical() : 0; };
     // Reflection and transmission are largest at different angles: both together are asked along a few.
     constexpr int steps = 64;
@@ -35,8 +57,9 @@ MeasuredTable::MeasuredTable(Parts parts, About about) : parts_(std::move(parts)
         for (int i = 0; i < steps * steps; ++i) {
             const double radius = (i / steps + 0.5) / steps, azimuth = 2 * pi * (i % steps) / steps;
             const DiscPoint in{radius * std::cos(azimuth), radius * std::sin(azimuth)};
-            const double sum = (reflection(front) != nullptr ? reflection(front)->hemispherical(in) : 0) +
-                               (transmission(front) != nullptr ? transmission(front)->hemispherical(in) : 0);
+            const double sum = (hemispherical(reflection(front), reflection_beside(front), in) +
+                                hemispherical(transmission(front), transmission_beside(front), in))
+                                   .max();
             scale_ = std::fmin(scale_, sum > 1 ? 1 / sum : 1);
         }
     for (const bool front : {true, false})

@@ -19,6 +19,7 @@ public:
     struct Parts {
         std::shared_ptr<const DirectionTable> front, back;           ///< reflection; null: black
         std::shared_ptr<const DirectionTable> from_front, from_back; ///< transmission of light that comes from there
+        ColourTables beside_front = {}, beside_back = {}, beside_from_front = {}, beside_from_back = {};
     };
     /// What the file says beside its values.
     struct About {
@@ -29,7 +30,7 @@ public:
     };
     MeasuredTable(Parts parts, About about);
     /// XML as WINDOW and genBSDF write it: Klems' full, half and quarter bases, bases of the file's own, trees of three
-    /// and four coordinates. Visible light is read.
+    /// and four coordinates. Visible light is read, and with CIE-X and CIE-Z its colour.
     /// @throws InputError with file and line: no XML, no visible data, counts that do not fit, values that are no
     ///         numbers
     static std::shared_ptr<const MeasuredTable> read(const std::filesystem::path& file);
@@ -42,6 +43,14 @@ public:
     const DirectionTable* transmission(bool from_front) const noexcept
     {
         return (from_front ? parts_.from_front : parts_.from_back).get();
+    }
+    const ColourTables& reflection_beside(bool front) const noexcept
+    {
+        return front ? parts_.beside_front : parts_.beside_back;
+    }
+    const ColourTables& transmission_beside(bool from_front) const noexcept
+    {
+        return from_front ? parts_.beside_from_front : parts_.beside_from_back;
     }
     /// Of all values, so that no more light leaves than arrives.
     double scaled_by() const noexcept { return scale_; }

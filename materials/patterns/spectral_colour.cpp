@@ -1,7 +1,5 @@
 #include "materials/patterns/spectral_colour.h"
 
-#include "engine/base/vector.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +56,13 @@ const std::vector<SpectralWeight>& spectral_weights()
         return all;
     }();
     return weights;
+}
+
+Spectrum colour_of_xyz(const Vec3& xyz) noexcept
+{
+    static const FromXyz rows = from_xyz();
+    const auto channel = [&](const Vec3& row) { return dot(row, xyz) / (row.x + row.y + row.z); };
+    return {channel(rows.r), channel(rows.g), channel(rows.b)};
 }
 
 Spectrum within_primaries(const Spectrum& colour) noexcept

@@ -6,6 +6,7 @@
 #include "materials/measured/measured_table.h"
 #include "materials/measured/square_disc.h"
 #include "materials/measured/tree_reader.h"
+#include "materials/measured_scattering.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -260,6 +261,43 @@ TEST(MeasuredDamage, EveryCutOfAFileIsReadOrRefused)
             static_cast<char>(random.next() * 256);
         complaint(changed);
     }
+}
+
+/// A sheet that reflects X and Z as well as Y has their colour: here that of a patch of the primaries' red, whose X : Y
+/// : Z
+/// (.64 .33 .03 by chromaticity) no white has.
+TEST(MeasuredTable, ColoursAreThoseOfXAndZ)
+{
+    const auto values = [](double value) {
+        std::string text;
+        for (int i = 0; i < 41 * 41; ++i)
+            text += std::to_string(value) + ' ';
+        return text;
+    };
+    const auto light = [&](const char* kind, double value) {
+        return std::string("</WavelengthData><WavelengthData><Wavelength unit=\"Integral\">") + kind + "</Wavelength>" +
+               block("Reflection Back", "LBNL/Klems Quarter", values(value));
+    };
+    const double y = 0.05;
+    const std::string visible = block("Reflection Back", "LBNL/Klems Quarter", values(y));
+    const auto seen = [&](const std::string& blocks) {
+        Measured sheet;
+        sheet.table = MeasuredTable::parse(xml_of("Columns", blocks), "test.xml");
+        return MeasuredScattering(sheet, true).value_per_sr({0, 0, 1}, {0.6, 0, 0.8}, LobeSet::all);
+    };
+    const Spectrum red = seen(visible + light("CIE-X", y * .64 / .33) + light("CIE-Z", y * .03 / .33));
+    EXPECT_NEAR(photopic(red), y, 2e-3 * y);
+    EXPECT_NEAR(red.g, 0, 1e-6);
+    EXPECT_NEAR(red.b, 0, 1e-6);
+    EXPECT_NEAR(red.r, y / photometric_weights.r, 2e-3 * red.r);
+    const Spectrum grey = seen(visible + light("CIE-X", y) + light("CIE-Z", y)),
+                   alone = seen(visible + light("CIE-X", 1));
+    for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_NEAR(grey[channel], y, 1e-6);
+        EXPECT_NEAR(alone[channel], y, 1e-6);
+    }
+    EXPECT_NE(complaint(xml_of("Columns", visible + light("CIE-X", NAN))).find("expected a finite number"),
+              std::string::npos);
 }
 
 TEST(MeasuredTable, MoreLightThanArrivesIsScaledDown)
