@@ -1,5 +1,6 @@
 #include "materials/measured_scattering.h"
 
+#include "engine/base/xyz_colour.h"
 #include "materials/diffuse.h"
 #include "materials/measured/measured_table.h"
 #include "materials/patterns/spectral_colour.h"

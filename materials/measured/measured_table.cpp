@@ -1,6 +1,6 @@
 #include "materials/measured/measured_table.h"
 
-#include "materials/patterns/spectral_colour.h"
+#include "engine/base/xyz_colour.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "materials/patterns/spectral_colour.h"
 
+#include "engine/base/xyz_colour.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,35 +22,16 @@ Vec3 colour_matching(double nm) noexcept
             1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
 }
 
-Vec3 of_chromaticity(double x, double y) noexcept
-{
-    return {x / y, 1, (1 - x - y) / y};
-}
-
-/// The rows of the map from X, Y, Z to the engine's primaries, up to a factor each: the weights are scaled afterwards.
-struct FromXyz {
-    Vec3 r, g, b;
-};
-FromXyz from_xyz() noexcept
-{
-    // The engine's primaries, see engine/base/spectrum.h.
-    const Vec3 red = of_chromaticity(.64, .33), green = of_chromaticity(.29, .60), blue = of_chromaticity(.15, .06);
-    const double volume = dot(red, cross(green, blue));
-    return {cross(green, blue) / volume, cross(blue, red) / volume, cross(red, green) / volume};
-}
-
 } // namespace
 
 const std::vector<SpectralWeight>& spectral_weights()
 {
     static const std::vector<SpectralWeight> weights = [] {
         constexpr double first_nm = 380, last_nm = 780, step_nm = 5;
-        const FromXyz rows = from_xyz();
         std::vector<SpectralWeight> all;
         Spectrum total;
         for (double nm = first_nm; nm <= last_nm; nm += step_nm) {
-            const Vec3 xyz = colour_matching(nm);
-            all.push_back({nm, {dot(rows.r, xyz), dot(rows.g, xyz), dot(rows.b, xyz)}});
+            all.push_back({nm, colour_of_xyz(colour_matching(nm))});
             total += all.back().weight;
         }
         for (SpectralWeight& w : all)
@@ -56,13 +39,6 @@ const std::vector<SpectralWeight>& spectral_weights()
         return all;
     }();
     return weights;
-}
-
-Spectrum colour_of_xyz(const Vec3& xyz) noexcept
-{
-    static const FromXyz rows = from_xyz();
-    const auto channel = [&](const Vec3& row) { return dot(row, xyz) / (row.x + row.y + row.z); };
-    return {channel(rows.r), channel(rows.g), channel(rows.b)};
 }
 
 Spectrum within_primaries(const Spectrum& colour) noexcept

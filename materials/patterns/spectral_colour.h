@@ -1,7 +1,6 @@
 #pragma once
 
 #include "engine/base/spectrum.h"
-#include "engine/base/vector.h"
 
 #include <vector>
 
@@ -23,9 +22,6 @@ const std::vector<SpectralWeight>& spectral_weights();
 /// below 0. Black when the brightness is not above 0.
 /// Source  recorded behaviour of the scene language (tests/unit/patterns): colours of single wavelengths
 Spectrum within_primaries(const Spectrum& colour) noexcept;
-
-/// The colour of CIE X, Y and Z, of which (1, 1, 1) is equal-energy white; not held within the primaries.
-Spectrum colour_of_xyz(const Vec3& xyz) noexcept;
 
 /// The colour of values over wavelength, within what the primaries can mix.
 /// @param value_at  called with a wavelength in nm
