@@ -79,6 +79,7 @@ def main():
         report, cpu_s = validate(words.program)
         cost = f" {cpu_s:.0f} CPU seconds, all processors together."
     rows = report["rows"]
+    cost = cost or f" {sum(row['cpu_seconds'] for row in rows):.0f} CPU seconds in the rows."
     failed = [row for row in rows if not row["passed"]]
     text = HEAD + f"{len(rows) - len(failed)} of {len(rows)} rows pass, version {report['version']}, seed {report['seed']}.{cost}\n\n"
     for row in failed:
