@@ -15,13 +15,19 @@ Spectrum held(const Spectrum& s)
     return {std::fmax(s.r, 0), std::fmax(s.g, 0), std::fmax(s.b, 0)};
 }
 
-Spectrum least_of(const DirectionTable* table, const ColourTables& beside)
+Spectrum paled(const Spectrum& colour, double luminous, double saturation)
+{
+    return Spectrum::grey(luminous) + saturation * (colour - Spectrum::grey(luminous));
+}
+
+Spectrum least_of(const DirectionTable* table, const ColourTables& beside, double saturation)
 {
     if (table == nullptr)
         return {};
     const double y = table->least_per_sr();
-    return beside.x == nullptr ? Spectrum::grey(y)
-                               : held(colour_of_xyz({beside.x->least_per_sr(), y, beside.z->least_per_sr()}));
+    if (beside.x == nullptr)
+        return Spectrum::grey(y);
+    return held(paled(colour_of_xyz({beside.x->least_per_sr(), y, beside.z->least_per_sr()}), y, saturation));
 }
 
 } // namespace
@@ -30,10 +36,10 @@ MeasuredScattering::MeasuredScattering(const Measured& m, bool from_front) noexc
     : reflection_(m.table->reflection(from_front)), transmission_(m.table->transmission(from_front)),
       reflection_beside_(&m.table->reflection_beside(from_front)),
       transmission_beside_(&m.table->transmission_beside(from_front)), scale_(m.table->scaled_by()),
-      side_(from_front ? 1 : -1), passes_straight_(m.passes_straight)
+      saturation_(m.table->saturation()), side_(from_front ? 1 : -1), passes_straight_(m.passes_straight)
 {
-    least_reflection_per_sr_ = scale_ * least_of(reflection_, *reflection_beside_);
-    least_transmission_per_sr_ = scale_ * least_of(transmission_, *transmission_beside_);
+    least_reflection_per_sr_ = scale_ * least_of(reflection_, *reflection_beside_, saturation_);
+    least_transmission_per_sr_ = scale_ * least_of(transmission_, *transmission_beside_, saturation_);
     diffuse_reflectance_ = (from_front ? m.front : m.back) + pi * least_reflection_per_sr_;
     diffuse_transmittance_ = m.through + pi * least_transmission_per_sr_;
 }
@@ -42,9 +48,11 @@ Spectrum MeasuredScattering::coloured(const DirectionTable& table, const ColourT
                                       const DiscPoint& out) const noexcept
 {
     const double y = table.value_per_sr(in, out);
-    return scale_ * (beside.x == nullptr ? Spectrum::grey(y)
-                                         : within_primaries(colour_of_xyz(
-                                               {beside.x->value_per_sr(in, out), y, beside.z->value_per_sr(in, out)})));
+    if (beside.x == nullptr)
+        return scale_ * Spectrum::grey(y);
+    const Spectrum colour =
+        within_primaries(colour_of_xyz({beside.x->value_per_sr(in, out), y, beside.z->value_per_sr(in, out)}));
+    return scale_ * paled(colour, y, saturation_);
 }
 
 Spectrum MeasuredScattering::straight(const Peak& peak, const Direction& to_viewer) const noexcept

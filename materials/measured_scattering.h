@@ -54,7 +54,7 @@ private:
     const DirectionTable* transmission_ = nullptr;
     const ColourTables *reflection_beside_ = nullptr, *transmission_beside_ = nullptr;
     Spectrum least_reflection_per_sr_, least_transmission_per_sr_; ///< what counts as diffuse
-    double scale_ = 1, side_ = 1;                                  ///< side: sign of x in the frame of the file
+    double scale_ = 1, saturation_ = 1, side_ = 1;                 ///< side: sign of x in the frame of the file
     Spectrum diffuse_reflectance_, diffuse_transmittance_;
     bool passes_straight_ = false;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace lightwell {
 
@@ -25,13 +26,20 @@ double DirectionTable::around(const DiscPoint& in, double radius) const noexcept
 
 namespace {
 
-Spectrum hemispherical(const DirectionTable* table, const ColourTables& beside, const DiscPoint& in)
+/// What both sides of a sheet do with light from one direction.
+struct Sent {
+    double luminous = 0;
+    Spectrum colour;
+};
+
+void add_hemispherical(const DirectionTable* table, const ColourTables& beside, const DiscPoint& in, Sent& sent)
 {
     if (table == nullptr)
-        return {};
+        return;
     const double y = table->hemispherical(in);
-    return beside.x == nullptr ? Spectrum::grey(y)
-                               : colour_of_xyz({beside.x->hemispherical(in), y, beside.z->hemispherical(in)});
+    sent.luminous += y;
+    sent.colour += beside.x == nullptr ? Spectrum::grey(y)
+                                       : colour_of_xyz({beside.x->hemispherical(in), y, beside.z->hemispherical(in)});
 }
 
 } // namespace
@@ -50,21 +58,33 @@ MeasuredTable::MeasuredTable(Parts parts, About about) : parts_(std::move(parts)
         parts_.from_back = parts_.from_front->reversed();
         parts_.beside_from_back = exchange(parts_.beside_from_front);
     }
-    const auto most = [](const DirectionTable* table) { return table != nullptr ? table->most_hemispherical() : 0; };
+    hold_energy();
+}
+
+void MeasuredTable::hold_energy()
+{
     // Reflection and transmission are largest at different angles: both together are asked along a few.
     constexpr int steps = 64;
+    std::vector<Sent> along;
     for (const bool front : {true, false})
         for (int i = 0; i < steps * steps; ++i) {
             const double radius = (i / steps + 0.5) / steps, azimuth = 2 * pi * (i % steps) / steps;
             const DiscPoint in{radius * std::cos(azimuth), radius * std::sin(azimuth)};
-            const double sum = (hemispherical(reflection(front), reflection_beside(front), in) +
-                                hemispherical(transmission(front), transmission_beside(front), in))
-                                   .max();
-            scale_ = std::fmin(scale_, sum > 1 ? 1 / sum : 1);
+            Sent& sent = along.emplace_back();
+            add_hemispherical(reflection(front), reflection_beside(front), in, sent);
+            add_hemispherical(transmission(front), transmission_beside(front), in, sent);
+            scale_ = std::fmin(scale_, sent.luminous > 1 ? 1 / sent.luminous : 1);
         }
+    const auto most = [](const DirectionTable* table) { return table != nullptr ? table->most_hemispherical() : 0; };
     for (const bool front : {true, false})
         for (const double single : {most(reflection(front)), most(transmission(front))})
             scale_ = std::fmin(scale_, single > 1 ? 1 / single : 1);
+    // A single primary above 1 is brought down by paling the colours: their luminance is what files are measured for.
+    for (const Sent& sent : along) {
+        const double luminous = scale_ * sent.luminous, largest = scale_ * sent.colour.max();
+        if (largest > 1)
+            saturation_ = std::fmin(saturation_, (1 - luminous) / (largest - luminous));
+    }
 }
 
 double MeasuredTable::value_per_sr(const Direction& incident, const Direction& out) const noexcept

@@ -54,12 +54,16 @@ public:
     }
     /// Of all values, so that no more light leaves than arrives.
     double scaled_by() const noexcept { return scale_; }
+    /// Of all colours, [0, 1], so that no primary is sent back more than it arrives.
+    double saturation() const noexcept { return saturation_; }
     const About& about() const noexcept { return about_; }
 
 private:
+    void hold_energy();
+
     Parts parts_;
     About about_;
-    double scale_ = 1;
+    double scale_ = 1, saturation_ = 1;
 };
 
 } // namespace lightwell

@@ -296,6 +296,12 @@ TEST(MeasuredTable, ColoursAreThoseOfXAndZ)
         EXPECT_NEAR(grey[channel], y, 1e-6);
         EXPECT_NEAR(alone[channel], y, 1e-6);
     }
+    // Ten times as red, it would send back more red than arrives: its luminance stays, its colour pales.
+    const std::string bright = block("Reflection Back", "LBNL/Klems Quarter", values(2 * y));
+    const Spectrum paler = seen(bright + light("CIE-X", 2 * y * .64 / .33) + light("CIE-Z", 2 * y * .03 / .33));
+    EXPECT_NEAR(photopic(paler), 2 * y, 2e-3 * y);
+    EXPECT_GT(paler.g, 0.1 * y);
+    EXPECT_GT(paler.r, 2 * paler.g);
     EXPECT_NE(complaint(xml_of("Columns", visible + light("CIE-X", NAN))).find("expected a finite number"),
               std::string::npos);
 }
