@@ -96,7 +96,7 @@ class BadInput(Case):
 
     def test_impossible_materials_and_numbers_that_are_none(self):
         for name, text, value in (
-                ("bright.rad", ROOM_RAD.replace("0.5 0.5 0.5 0 0", "1.5 0.5 0.5 0 0"), "1.5"),
+                ("bright.rad", ROOM_RAD.replace("0.5 0.5 0.5 0 0", "1.5 1.5 1.5 0 0"), "1.5"),
                 ("nan.rad", ROOM_RAD.replace("4 3 2.5  4 0 2.5", "4 nan 2.5  4 0 2.5"), "nan.rad"),
                 ("unknown.rad", ROOM_RAD + "marble polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n", "marble"),
                 ("dark.rad", ROOM_RAD.replace("void light lamp 0 0 3 20 20 20", "void plastic lamp 0 0 5 0 0 0 0 0"),

@@ -97,7 +97,7 @@ class Damage(WithEngine):
         for text, line, object_, sentence in (
                 ("Gone mesh Desk 1 parts/x.ply 0 0\n", 1, "Desk", "modifier \"Gone\" is not defined above"),
                 ("void plastic W 0 0 5 .5 .5 .5 0 0\nW mesh D%20%C3%84 1 x.ply 0 0\n", 2, "D Ä", "\"x.ply\" is not found"),
-                ("void plastic W 0 0 5 1.5 .5 .5 0 0\n", 1, "W", "1.5"),
+                ("void plastic W 0 0 5 1.5 1.5 1.5 0 0\n", 1, "W", "1.5"),
                 ("void plastic W 0 0 5 .5 .5 .5 0 0\nW sphere s 0 0 4 0 0 0 nan\n", 2, "s", "nan")):
             (self.path / "bad.rad").write_text(text)
             event = self.engine.ask("load", scene=str(self.path / "bad.rad"))
